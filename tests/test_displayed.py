@@ -260,11 +260,12 @@ def assert_check(check: Check) -> int:
         assert within and "PASS" in text
         assert float(within[1].rstrip("°")) == pytest.approx(check.limit, rel=0.051, abs=1e-300)
         return 1
-    match = re.search(r": (\S+) [≤>] (\S+?)[,;]?(?: |$)", text)
+    match = re.search(rf": (\S+) [{'≥<' if check.at_least else '≤>'}] (\S+?)[,;]?(?: |$)", text)
     if not check.evaluated:
         assert "not evaluated" in text
         return 0
-    assert match and ("PASS" if check.residual <= check.limit else "FAIL") in text
+    kept = check.residual >= check.limit if check.at_least else check.residual <= check.limit
+    assert match and ("PASS" if kept else "FAIL") in text
     compared = [float(t.rstrip("°")) for t in match.groups()]
     assert compared == pytest.approx([check.residual, check.limit], rel=0.051, abs=1e-300)
     return 2

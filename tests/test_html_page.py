@@ -295,6 +295,15 @@ def test_percent_are_a_unit_of_a_number_without_one(document: Callable[..., Path
     assert read(page)["lines"] == told != first
 
 
+def test_what_an_address_gives_that_no_input_takes_is_told(document: Callable[..., Path], offline: Page) -> None:
+    """Else the page says that all is as in the document, to somebody who follows a link with another input."""
+    page = opened(offline, document("examples/bolted_joint"), "foo=3&grade=12.8&nu=0.8")
+    state = page.locator(".ms-state")
+    expect(state).to_have_text("changed: nu; there is no input foo; grade has no option 12.8")
+    page.get_by_role("button", name="back to the document").click()
+    expect(state).to_have_text("as in the document")
+
+
 def test_a_link_within_the_page_leaves_the_inputs(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     fill(page, "P6", "30000")

@@ -255,6 +255,17 @@ def test_a_link_that_is_pasted_into_the_open_page_holds(kinds: Path, left_open: 
     computed(page, a="0.7", duty="heavy")
 
 
+def test_what_a_link_gives_that_no_input_takes_is_told(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:
+    page = left_open(kinds, "as in the document")
+    states = page.locator("ms-states")
+    page.evaluate("location.hash = 'a=700 mm&duty=medium&foo=3'")
+    expect(states).to_contain_text("a = 0.7 m")
+    expect(states).to_contain_text("duty has no option medium; there is no input foo")
+    states.get_by_role("button", name="back to the document").click()
+    expect(states).not_to_contain_text("foo")
+    computed(page)
+
+
 DEAF_ONCE = """() => {
   const own = EventTarget.prototype.dispatchEvent;
   EventTarget.prototype.dispatchEvent = function (event) {

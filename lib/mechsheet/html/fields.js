@@ -135,8 +135,10 @@ function type(field, text) {
 
 const textsOf = changed => told.inputs.fields.filter(f => changed.has(f.name)).map(f => ({...f, text: typed(f)}));
 
+// Every field by the address, which may carry what there is not: it is told.
 function readAddress() {
   const given = textsIn(location.hash);
   for (const field of told.inputs.fields) type(field, given.get(field.name) ?? field.text);
-  return given.size > 0;
+  const options = field => (field.kind === "choice" ? [...inputOf(field).options].map(option => option.value) : undefined);
+  state.strange = [...strange(given, new Map(told.inputs.fields.map(field => [field.name, options(field)]))).values()];
 }

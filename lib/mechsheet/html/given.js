@@ -16,6 +16,15 @@ function textsIn(hash) {
   }));
 }
 
+// Why no input takes what an address gives, by its names; `options` are the texts that an input may have, if not any.
+function strange(given, options) {
+  const why = (name, text) => {
+    if (!options.has(name)) return `there is no input ${name}`;
+    return options.get(name)?.includes(text) === false ? `${name} has no option ${text}` : "";
+  };
+  return new Map([...given].map(([name, text]) => [name, why(name, text)]).filter(([, told]) => told));
+}
+
 // Numbers in display units, texts in quotes.
 function sceneText(given) {
   const quoted = text => JSON.stringify(text).replaceAll("\u007f", "\\u007f");

@@ -11,7 +11,7 @@ const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element)
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
 const DRAWN = new Set(["chart", "drawing", "numbers"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
-const state = {changed: new Set(), refused: false, results: null};
+const state = {changed: new Set(), refused: false, results: null, strange: []};
 const moving = new Map(); // by the name of the control: its positions, pictures and marks, and which of them is shown
 
 const ENDS = 100; // rows at either end of a table that are shown: see `rows` of the document
@@ -310,7 +310,7 @@ function say(changed, errors) {
   const text = errors.size
     ? `not computed: ${[...errors.values()][0]}`
     : changed.size ? [`changed: ${names}`, ...lacking(state.results)].join("; ") : "as in the document";
-  bar.querySelector(".ms-state").textContent = text;
+  bar.querySelector(".ms-state").textContent = [text, ...state.strange].join("; ");
   document.body.classList.toggle("ms-stopped", errors.size > 0);
   bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
   bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);
@@ -326,6 +326,7 @@ addEventListener("hashchange", () => {
 });
 
 document.querySelector(".ms-back")?.addEventListener("click", () => {
+  state.strange = [];
   for (const field of told.inputs.fields) type(field, field.text);
   refresh();
 });

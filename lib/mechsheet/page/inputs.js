@@ -161,10 +161,12 @@
       this.to({ ...textsNow(), ...asked });
     }
 
-    // What a link carries, whether it carries anything; all else is as in the document.
+    // What a link carries, whether it carries anything; all else is as in the document, and what no input takes is told.
     open() {
       const given = textsIn(location.hash);
-      if (given.size) this.to({ ...ownTexts(), ...Object.fromEntries(given) });
+      this.strange = strange(given, new Map(fields.map(({ name, options }) => [name, options])));
+      const known = [...given].filter(([name]) => !this.strange.has(name));
+      if (given.size) this.to({ ...ownTexts(), ...Object.fromEntries(known) });
       return given.size > 0;
     }
 
@@ -205,8 +207,8 @@
       const list = this.querySelector(".ms-scenes");
       list.innerHTML = this.list();
       list.hidden = !list.firstChild;
-      const as = differs.size ? "" : "as in the document";
-      this.querySelector("[role=status]").textContent = this.refused ? "not computed with what the fields say" : as;
+      const as = this.refused ? "not computed with what the fields say" : differs.size ? "" : "as in the document";
+      this.querySelector("[role=status]").textContent = [as, ...(this.strange?.values() ?? [])].filter(Boolean).join("; ");
       const changed = this.given.map(
         ({ head, text, own, unit }) => `<span>${head} = <b>${plain(text)}</b> ${plain(unit)} <i>(${plain(own)} in the document)</i></span>`,
       );
@@ -229,7 +231,10 @@
         // What is typed and not computed with yet, or refused, goes first.
         undo: () => this.to(others(steps[at]).length ? steps[at] : steps[(at = Math.max(0, at - 1))]),
         redo: () => this.to(steps[(at = Math.min(steps.length - 1, at + 1))]),
-        back: () => this.to(ownTexts()),
+        back: () => {
+          this.strange = undefined;
+          this.to(ownTexts());
+        },
         link: () => this.copy(),
         scene: () => saveScene(this.getAttribute("of"), this.given),
       };

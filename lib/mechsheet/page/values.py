@@ -354,7 +354,15 @@ def _(used: Used) -> str:
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
         said = used.said.get(field.name)
-        its = {"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit}
+        its: dict[str, Any] = {
+            "name": field.name,
+            "head": name,
+            "kind": _kind(field),
+            "text": text,
+            "own": own,
+            "unit": unit,
+        }
+        its |= {"options": [*field.options]} if isinstance(field, Choice) else {}
         told.append(its | {"said": said if isinstance(said, str) else text})
     return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
 

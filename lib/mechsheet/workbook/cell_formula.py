@@ -333,8 +333,21 @@ def nesting(node: Node, inside: Mapping[Node, int]) -> int:
     _, binding, needs = _TEXT[node.op]
     if binding == 5:
         return deepest + 1
-    tight = [_TEXT[operand.op][1] if operand.op in _TEXT else 5 for operand in node.operands]
+    tight = map(_loosest, node.operands)
     return max(deep[o] + (t < need) for o, t, need in zip(node.operands, tight, needs, strict=True))
+
+
+def _loosest(node: Node) -> int:
+    """How loosely the text of a quantity may bind: of what is put together from others as theirs."""
+    loosest, stack, seen = 5, [node], {node}
+    while stack:
+        here = stack.pop()
+        if here.op in _TEXT:
+            loosest = min(loosest, _TEXT[here.op][1])
+        elif here.op == "join":
+            stack += [operand for operand in here.operands if operand not in seen]
+            seen.update(here.operands)
+    return loosest
 
 
 def _elsewhere(operand: Node, node: Node) -> bool:

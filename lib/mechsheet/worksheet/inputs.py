@@ -3,6 +3,7 @@
 import ast
 import dataclasses
 import sys
+import weakref
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -390,7 +391,7 @@ def readings(fields: Iterable[Input], values: Mapping[str, object]) -> list[str]
     return [text for field in fields if field.name in values for text in field.readings(values[field.name])]
 
 
-_SAID = "__said__"
+_said = dict[int, Mapping[str, object]]()  # what stood in the fields, by the identity of the inputs that were read
 
 
 def read(cls: type[T], form: Any) -> T:
@@ -400,7 +401,8 @@ def read(cls: type[T], form: Any) -> T:
         g = build(cls, values)
     except SheetError as error:
         refuse(error)
-    object.__setattr__(g, _SAID, values)  # beside what they mean, for the page alone
+    _said[id(g)] = values  # for the page alone, and beside g, whose attributes are the inputs
+    weakref.finalize(g, _said.pop, id(g), None)
     return g
 
 
@@ -420,7 +422,7 @@ class Used(Shown):
     @property
     def said(self) -> Mapping[str, object]:
         """What stood in the fields by which they were read; nothing where there were none."""
-        return getattr(self.g, _SAID, {})
+        return _said.get(id(self.g), {})
 
     def given(self) -> dict[str, Any]:
         """What gives these values when it is read as inputs: of a list or table its text, which is no variants."""
