@@ -52,6 +52,7 @@ SAID = [
 PUT_TOGETHER = [  # or under a name, or one of two
     "note", "f'B {g.F:.1f} ' + kind + f' {g.side}'", "'C much' if g.F > 3 else 'C little'", "'D ' + kind",
     "'E {0:.2f} N, {1} {0:.1f}'.format(g.F, kind)", "'F {:.2f} N, {} {n}'.format(g.F, kind, n=g.side)",
+    "'G ' + str(g.F) + ' N'", "'H ' + f'{g.F:.2f}'.replace('.', ',')", "str(round(g.F, 2)).replace('.', ',')",
 ]  # fmt: skip
 CHANGED = [
     {"F": "3.75"},

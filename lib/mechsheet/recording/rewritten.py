@@ -354,7 +354,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
             case ast.Attribute(attr="get" | "index" | "join" | "format"):
                 return True
             case ast.Name(name):
-                return name in _NAMES or name in OF_KEPT or name == "Check"
+                return name in _NAMES or name in OF_KEPT or name in ("Check", "str")
         return False
     return isinstance(part, _KINDS) or (isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store))
 

@@ -110,6 +110,8 @@ def _follows(text: ast.expr) -> bool:
     match text:
         case ast.BinOp(left, ast.Add(), right):
             return _follows(left) or _follows(right)
+        case ast.Call(ast.Attribute(of, "replace")):
+            return _follows(of)
         case ast.Call():
             return formatted(text) is not None
     return isinstance(text, ast.JoinedStr | ast.Name | ast.IfExp)
