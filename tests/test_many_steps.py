@@ -66,21 +66,23 @@ def test_loop_of_many_steps_is_followed_by_every_reader(few_calls: None, tmp_pat
 
 
 SET = """
-M = 1200
+M = {}
 p = np.zeros(M + 1)  # [-] way
-q = np.zeros((M + 1, 2))
+q = np.full((M // 8 + 1, 2), g.a)
 p[0], q[:, 1] = g.F, g.a
 for i in range(M):
-    q[i + 1, 0] = q[i, 0] - 1e-3 * g.a * p[i]
-    p[i + 1] = p[i] + 1e-3 * q[i + 1, 0]
-ends = np.array([p[-1], p.min(), q[-1, 0], q[0].sum()])  # [-] of a motion in arrays of their own length
+    p[i + 1] = p[i] - 1e-3 * g.a * p[i]
+for i in range(M // 8):
+    q[i + 1] = q[i, 0] * 0.99, q[i, 0] - 1e-3 * g.a * q[i, 1]
+ends = np.array([p[-1], p.min(), q[-1, 0], q[0].sum(), q[:, 1].max()])  # [-] of a motion in arrays of their length
 table_2 = table("2", "Motion", p, every=100)
 table_3 = table("3", "Ends", ends)"""
 
 
-def test_arrays_whose_elements_are_set_one_by_one_are_followed(tmp_path: Path) -> None:
-    """Each was a new one made of the last: of 1200 elements that were more operations than a line may have."""
-    _, recording = recorded(own(tmp_path, SET))
+@pytest.mark.parametrize("steps", ["1200", "g.n * 240"])
+def test_arrays_whose_elements_are_set_one_by_one_are_followed(steps: str, tmp_path: Path) -> None:
+    """Each was a new one made of the last: of 1200 elements these were more operations than a line may have."""
+    _, recording = recorded(own(tmp_path, SET.replace("{}", steps)))
     assert not recording.gaps
     (column,) = recording.tables["3"]
     known = numbers([column.re], {recording.inputs["F"]: 3.25, recording.inputs["a"]: 0.9})[column.re]

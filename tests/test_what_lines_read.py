@@ -117,8 +117,8 @@ def test_ways_that_are_not_gone_raise_no_warning_of_the_page(tmp_path: Path) -> 
 
 @pytest.mark.parametrize(("fills", "told"), [("v[k + 1] = w", True), ("v.append(w)", False)], ids=["set", "append"])
 def test_of_an_array_that_takes_too_much_to_be_filled_the_list_is_told(fills: str, told: bool, tmp_path: Path) -> None:
-    first = "v = np.zeros(g.n * 200 + 1)\nv[0] = g.F" if told else "v = [g.F]"
-    lines = f"{first}\nfor k in range(1000):\n    w = v[k] - 1e-3 * g.a * v[k]\n    {fills}\ny = v[-1]  # [-] last"
+    first = "v = np.zeros(20_001)\nv[0] = g.F" if told else "v = [g.F]"
+    lines = f"{first}\nfor k in range(500):\n    w = v[k] - 1e-3 * g.a * v[k]\n    {fills}\ny = v[-1]  # [-] last"
     recording = recording_of(own(tmp_path, "pass", further=[lines]))
     assert ["a list that is appended to is not" in gap.reason for gap in recording.gaps] == [True] * told
 

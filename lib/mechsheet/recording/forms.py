@@ -132,8 +132,8 @@ def member(node: ast.Compare) -> ast.expr:
 def formatted(node: ast.Call) -> ast.JoinedStr | None:
     """``"{:.2f} N".format(F)`` as ``f"{F:.2f} N"``, ``str(F)`` too; None of any other call, and of another format."""
     match node:
-        case ast.Call(ast.Name("str"), [value], []) if not isinstance(value, ast.Starred):
-            piece = ast.FormattedValue(copy.deepcopy(value), -1, None)
+        case ast.Call(ast.Name("str"), [told], []) if not isinstance(told, ast.Starred):
+            piece = ast.FormattedValue(copy.deepcopy(told), -1, None)
             return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr([piece]), node))
         case ast.Call(ast.Attribute(ast.Constant(str(text)), "format"), args, keywords):
             known = {str(n): value for n, value in enumerate(args)} | {part.arg: part.value for part in keywords}

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
-from mechsheet.quantities.graph import NotRecorded
+from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.quantities.selected import Selected
 from mechsheet.recording.choices import element
@@ -29,9 +31,49 @@ def put(array: Any, key: Any, value: Any) -> Any:
     graph = next(quantities([array, key, value])).graph
     graph.gone.append(weakref.ref(owner(array)))
     old, new = lift(graph, array), lift(graph, value)
+    if not has_quantity([key]):
+        old = _of_now(graph, old)
     new = new.astype(int) if old.dtype.kind in "iu" else new
     chosen = _where(old, key, new)
     return joined([old, new], _placed, plain(key)) if chosen is None else chosen
+
+
+def _of_now(graph: Graph, old: Quantity) -> Quantity:
+    """The array in its present length, where Python has taken what this rests on as it is now, as a loop does."""
+    own = [*old.parts]
+    parts = [known for part in own if (known := _at_length(graph, part)) is not None]
+    if len(parts) < len(own):
+        return old
+    for part in own:
+        graph.measure(part)
+    return Quantity(graph, *parts)
+
+
+def _at_length(graph: Graph, node: Node) -> Node | None:
+    """An array of one value, and what has been set in it, in a length that Python has seen; None of anything else."""
+    if not node.stretches:
+        return node
+    if node.op == "like":
+        one = node
+        while one.op == "like":
+            one = one.args[0]
+        begins = (n for n in bottom_up([node], ()) if n.stretches and not any(part.stretches for part in n.operands))
+        seen = one.size == 1 and all(n.op == "rows" and _seen(graph, n.args[0]) for n in begins)
+        return graph.take(one, np.zeros(node.shape, int)) if seen else None
+    if node.op != "join":
+        return None
+    sources, which, inside, moved = node.args
+    starts = np.cumsum([0, *(source.size for source in sources)])
+    parts = [part for source in sources if (part := _at_length(graph, source)) is not None]
+    return graph.join(parts, starts[which] + inside, moved) if len(parts) == len(sources) else None
+
+
+def _seen(graph: Graph, count: Node) -> bool:
+    """Whether a number rests on nothing but what Python has looked at."""
+    same = graph.same(count)
+    if count in graph.fixed or same in graph.looked or same in graph.numbered:
+        return True
+    return count.op in ELEMENTWISE and all(_seen(graph, operand) for operand in count.operands)
 
 
 def _where(old: Quantity, key: Any, new: Quantity) -> Quantity | None:
