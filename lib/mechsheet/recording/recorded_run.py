@@ -242,7 +242,8 @@ class Run(OfPositions):
                 {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
             )
         for name in touched:
-            if isinstance(made := self.names.get(name), Slider):  # it rests where the worksheet has it
+            made = self.names.get(name)
+            if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
                 own = self.namespace.get(name, made)
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
