@@ -63,6 +63,7 @@ def test_every_random_case_is_where_the_slopes_say(name, tmp_path):
     drawn = np.random.default_rng(20).uniform(-1, 1, (len(found.by), 6))
     own_values = {x: shown[x].display(getattr(names["g"], x)) for x in found.by}
     variants = {x: v + abs(v) * PART * d for (x, v), d in zip(own_values.items(), drawn, strict=True)}
+    assert not any("it bends" in told for told in found.lines()), "what rounding leaves of a difference is no bend"
     results = [b for b in found.banded if b.where == "results" and np.max(b.band.worst) > 1e-12]  # no mere rounding
     assert len(results) > 10
     swept = sweep(sheet.path, dict.fromkeys(b.name.split(".")[0] for b in results), variants)

@@ -20,6 +20,7 @@ from mechsheet.readers.cases import Cases, in_cases
 from mechsheet.readers.jumps import Jump, jumps
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import seen, slopes, unfollowed
+from mechsheet.readers.terms import made_of, size_of
 from mechsheet.worksheet import inputs, numbers
 from mechsheet.worksheet.deviation import LIKE, SIGMAS
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
@@ -33,6 +34,7 @@ _CRITICAL = 100  # elements of a check that are judged at a time
 BENDS, ENDS = "it bends", "it ends within the tolerances"  # what slopes do not tell
 _EPS = float(np.finfo(float).eps)
 _ROUNDING = 1e-9  # of the greatest number
+_LEFT = 1e-12  # of the terms: what is left where they cancel
 
 
 class Tolerance(NamedTuple):
@@ -184,7 +186,8 @@ class Bands:
         """
         self.look([node, *guards])
         known, worst = np.isfinite(node.value), self.known[node].worst
-        within = _MISLED * worst + _ROUNDING * np.max(np.abs(node.value), initial=0.0, where=known)
+        rounding = max(_ROUNDING * size_of(node), _LEFT * made_of(node, self.recording.made_of))
+        within = _MISLED * worst + rounding
         bends = False
         for there in self.there:
             if not all(there[guard].all() for guard in guards):
