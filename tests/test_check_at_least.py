@@ -168,6 +168,28 @@ def test_at_a_greatest_value_the_ends_of_the_tolerances_tell(at: float, told: st
     assert re.search(told, line), line
 
 
+JUMPING = """
+d = next(d for d in (30 * mm, 31 * mm, 32 * mm, 40 * mm) if d >= g.d_0)  # [mm] standard size
+S = g.R_e * np.pi * d**2 / 4 / np.array([100 * kN, 200 * kN, 50 * kN])  # [-] safeties, some above and some below
+c = check("safety", S, at_least=1.44)
+"""
+
+
+def test_cases_judge_it_as_plain_runs_do(tmp_path: Path) -> None:
+    """Where a size jumps within the tolerances recordings tell of many cases."""
+    path = tmp_path / "sizes.py"
+    given = "d_0: float = 31 * mm  # [mm] least diameter; ± 1\nR_e: float = 355 * MPa  # [MPa] yield strength; ± 5"
+    path.write_text(written(SETUP, given, JUMPING, "Sizes"))
+    rng = np.random.default_rng(2)
+    d_0, R_e = 31 + rng.uniform(-1, 1, 50_000), 355 + rng.uniform(-5, 5, 50_000)
+    d = np.where(d_0 <= 31, 31, 32)
+    share = (R_e * np.pi * d**2 / 4 / 200e3 >= 1.44).mean()
+    assert 0.05 < share < 0.15
+    (line,) = [x for x in as_script(path, "--tolerances").stdout.splitlines() if "safety" in x]
+    told = re.search(r"in (\S+) % of", line)
+    assert told and float(told[1]) == pytest.approx(100 * share, abs=3), line
+
+
 def test_a_scene_sets_what_must_be_at_least(sheet: Path) -> None:
     for bound, told in (("min = 5.0", "FAIL  safety: 2.2305 >= 5"), ("max = 5.0", r"'safety' must be {min = NUMBER}")):
         scene = sheet.with_name("scene.toml")

@@ -49,12 +49,15 @@ class Residual:
     where: str = ""
     at_least: bool = False
 
+    def keeps(self, numbers: Values, limit: Values) -> Values:
+        """Which numbers of what is compared keep the limit."""
+        if self.at_least:
+            return np.asarray(numbers >= limit)
+        return np.asarray((numbers if self.signed else np.abs(numbers)) <= limit)
+
     def holds(self, there: Mapping[Node, Values]) -> bool:
         """Whether the check does where its quantities have these numbers."""
-        limit, parts = there[self.limit], [there[part] for part in self.parts]
-        if self.at_least:
-            return all((part >= limit).all() for part in parts)
-        return all(((part if self.signed else np.abs(part)) <= limit).all() for part in parts)
+        return all(self.keeps(there[part], there[self.limit]).all() for part in self.parts)
 
 
 class Told(NamedTuple):

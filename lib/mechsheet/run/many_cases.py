@@ -117,8 +117,7 @@ def _holds(check: Residual, numbers: Mapping[Node, Values]) -> Values:
     most = _flat(numbers[check.limit])
     holds = _every(np.isfinite(most))
     for part in check.parts:
-        x = _flat(numbers[part])
-        holds = holds & _every((x if check.signed else np.abs(x)) <= most)
+        holds = holds & _every(check.keeps(_flat(numbers[part]), most))
     return holds
 
 
