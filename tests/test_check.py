@@ -80,6 +80,9 @@ def test_only_of_a_positive_limit_a_quantity_takes_a_part():
     assert check("c", 100.0001, 100.0).utilised == "100.0001 %", "told apart from all of it"
     assert check("c", 1e-11, 1.0).utilised == "under 0.01 %" and check("c", 0.0, 1.0).utilised == "0 %"
     assert not check("c", 1.0, -2.0).utilised and not check("c", [], 2.0).utilised
+    assert not Check("m <= 2 kN", -5.0, 2.0, "kN").utilised, (
+        "a number on the other side of 0 takes no part of its limit"
+    )
 
 
 def test_the_worst_comes_first():

@@ -152,7 +152,7 @@ function judged(spec, results) {
   const sign = passed ? (spec.least ? "≥" : "≤") : spec.least ? "&lt;" : "&gt;";
   const told = agrees ? `within ${b}${spec.behind}` : `${a} ${sign} ${b}${spec.behind}`;
   const [needs, has] = spec.least ? [limit, residual] : [residual, limit];
-  const part = limit > 0 && has > 0 && !spec.agreement ? needs / has : NaN, used = utilised(part);
+  const part = needs >= 0 && has > 0 && limit > 0 && !spec.agreement ? needs / has : NaN, used = utilised(part);
   return {kind, word: kind, compared: `: ${told}${used && `, ${used}`}`, reason: "", part};
 }
 

@@ -65,7 +65,8 @@ class Check(Shown):
     def utilisation(self) -> float:
         """What part of its limit a quantity takes, or of a quantity what is needed; NaN where that tells nothing."""
         part, whole = (self.limit, self.residual) if self.at_least else (self.residual, self.limit)
-        return part / whole if self.limit > 0 and whole > 0 and not self.agreement else np.nan
+        tells = part >= 0 and whole > 0 and self.limit > 0 and not self.agreement
+        return part / whole if tells else np.nan
 
     @property
     def utilised(self) -> str:
