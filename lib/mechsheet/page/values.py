@@ -353,17 +353,9 @@ def _(used: Used) -> str:
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
-        said = used.said.get(field.name)
-        its: dict[str, Any] = {
-            "name": field.name,
-            "head": name,
-            "kind": _kind(field),
-            "text": text,
-            "own": own,
-            "unit": unit,
-        }
-        its |= {"options": [*field.options]} if isinstance(field, Choice) else {}
-        told.append(its | {"said": said if isinstance(said, str) else text})
+        said, options = used.said.get(field.name), [*field.options] if isinstance(field, Choice) else None
+        its = {"name": field.name, "head": name, "kind": _kind(field), "text": text, "own": own, "unit": unit}
+        told.append({**its, "options": options, "said": said if isinstance(said, str) else text})
     return f'{element("ms-used", told=told)}<table class="ms-print" style="display:none">{"".join(rows)}</table>'
 
 

@@ -125,8 +125,8 @@ class Graph(Lengths):
             along = along and own.ndim > 0  # one number has no rows, whatever it is made of
             known = self.nodes[key] = Node(op, args, own, self.line, along)
             if op not in _GIVEN:
-                own_size = known.size // (_COPIED if op == "join" and not along else 1)
-                self.work += max(own_size, self.most // _NODES)
+                computed = known.size // (_COPIED if op == "join" and not along else 1)
+                self.work += max(computed, self.most // _NODES)
             under = known.operands
             if op == "constant" or (under and op != "state" and self.fixed.issuperset(under)):
                 self.fixed.add(known)

@@ -249,10 +249,10 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
 
 def _is_whole(node: Node) -> bool:
     """Whether Python has a whole number there, where it has one at all."""
-    waiting, known = [node], set(current.get().whole)
+    waiting, known, whole = [node], set[Node](), current.get().whole
     while waiting:
         part = waiting.pop()
-        if part in known or part.value.dtype.kind in "iu":
+        if part in known or part in whole or part.value.dtype.kind in "iu":
             continue
         known.add(part)
         match part.op:

@@ -40,6 +40,8 @@ def put(array: Any, key: Any, value: Any) -> Any:
 
 def _of_now(graph: Graph, old: Quantity) -> Quantity:
     """The array in its present length, where Python has taken what this rests on as it is now, as a loop does."""
+    if isinstance(old, Selected):
+        return old
     own = [*old.parts]
     parts = [known for part in own if (known := _at_length(graph, part)) is not None]
     if len(parts) < len(own):

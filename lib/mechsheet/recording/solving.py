@@ -77,7 +77,67 @@ def one(
     method: str = "",
 ) -> Solving:
     """A value of one equation, as it was found from what is ``given`` of its interval and its guess."""
-    return _first(lambda n: _one(graph, found, f, given, equals, branch, branches, method, n))
+
+    def solved_by(n: int) -> tuple[Block, Solving]:
+        starts = {k: (lift(graph, x).re,) for k, x in given.items() if x is not None}
+        block = Block(starts, single=True, method=method)
+        name = f"{found.words.unknown}, line {graph.line}, {n}"
+        block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
+        x, target = Quantity(graph, block.nodes[0]), lift(graph, equals)
+        value = lift(graph, f(x, branch) if branch is not None else f(x))
+        left = value - target
+        block.residuals, block.sides = (left.re,), (value.re, target.re)
+        if branch is not None:
+            block.branch = lift(graph, branch).re
+            with graph.labelled({**graph.labels}):  # only the wanted branch has steps with names
+                block.branches = {s: lift(graph, f(x, s)).re for s in branches}
+        block.rest()
+        block.seen = _seen(graph, block)
+        words = found.words
+        told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
+        ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
+        alone = target.re if target.single else None
+        solved = Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone)
+        return block, Solving(x, left, (solved,))
+
+    return _first(solved_by)
+
+
+def several(graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any]) -> Solving:
+    """Values of several equations, as they were found."""
+
+    def solved_by(n: int) -> tuple[Block, Solving]:
+        words = found.words
+        given = {name: x if isinstance(x, tuple) else (x,) for name, x in unknowns.items()}
+        starts = {name: tuple(lift(graph, v).re for v in values) for name, values in given.items()}
+        block = Block(starts, False, found.least, words.equation_units, words.units)
+        name = f"{words.unknowns}, line {graph.line}, {n}"
+        values = [listed(graph, v) for v in (*found._values, found.evaluations)]
+        *block_nodes, evaluations = (graph.found(block, k, name, value) for k, value in enumerate(values))
+        block.nodes = tuple(block_nodes)
+        x = [Quantity(graph, node) for node in block.nodes]
+        equations = f(**dict(zip(words.names, x, strict=True)))
+        parts = equations if isinstance(equations, tuple | list) else [equations]
+        wanted = equals if isinstance(equals, tuple | list) else [equals] * len(parts)
+        left = [part for e, w in zip(parts, wanted, strict=True) for part in _parts(lift(graph, e - w), block.nodes[0])]
+        if len(left) != len(words.equations):
+            raise NotRecorded(f"{len(left)} equations where the worksheet has {len(words.equations)}")
+        block.residuals = tuple(part.re for part in left)
+        if block.least:
+            block.level = _level(block)
+        block.targets = tuple(dict.fromkeys(n for w in wanted for n in lift(graph, w).parts if n.op != "constant"))
+        block.rest()
+        block.seen = _seen(graph, block)
+        solved = []
+        for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):
+            told = Told(unknown, words.equations[k], words.equation_units[k], unit)
+            residual = left[k].re if left[k].single else None
+            ends = starts[unknown]
+            solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
+        value = namedtuple("Values", words.names)(*x)
+        return block, Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
+
+    return _first(solved_by)
 
 
 def _first(solved: Callable[[int], tuple[Block, Solving]]) -> Solving:
@@ -88,78 +148,6 @@ def _first(solved: Callable[[int], tuple[Block, Solving]]) -> Solving:
         if known is block or known.asked == block.asked:
             return new
     raise AssertionError
-
-
-def _one(
-    graph: Graph,
-    found: Found,
-    f: Callable[..., Any],
-    given: dict[str, Any],
-    equals: Any,
-    branch: Any,
-    branches: Any,
-    method: str,
-    n: int,
-) -> tuple[Block, Solving]:
-    starts = {k: (lift(graph, x).re,) for k, x in given.items() if x is not None}
-    block = Block(starts, single=True, method=method)
-    name = f"{found.words.unknown}, line {graph.line}, {n}"
-    block.nodes = (graph.found(block, 0, name, listed(graph, found._value)),)
-    x, target = Quantity(graph, block.nodes[0]), lift(graph, equals)
-    value = lift(graph, f(x, branch) if branch is not None else f(x))
-    left = value - target
-    block.residuals, block.sides = (left.re,), (value.re, target.re)
-    if branch is not None:
-        block.branch = lift(graph, branch).re
-        with graph.labelled({**graph.labels}):  # only the wanted branch has steps with names
-            block.branches = {s: lift(graph, f(x, s)).re for s in branches}
-    block.rest()
-    block.seen = _seen(graph, block)
-    words = found.words
-    told = Told(words.unknown, words.quantity, words.unit, words.unknown_unit)
-    ends = (starts["lo"][0], starts["hi"][0]) if starts.keys() >= {"lo", "hi"} else None
-    alone = target.re if target.single else None
-    solved = Solved(block.nodes[0], left.re if left.single else None, ends, told, target=alone)
-    return block, Solving(x, left, (solved,))
-
-
-def several(graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any]) -> Solving:
-    """Values of several equations, as they were found."""
-    return _first(lambda n: _several(graph, found, f, equals, unknowns, n))
-
-
-def _several(
-    graph: Graph, found: Solution, f: Callable[..., Any], equals: Any, unknowns: Mapping[str, Any], n: int
-) -> tuple[Block, Solving]:
-    words = found.words
-    given = {name: x if isinstance(x, tuple) else (x,) for name, x in unknowns.items()}
-    starts = {name: tuple(lift(graph, v).re for v in values) for name, values in given.items()}
-    block = Block(starts, False, found.least, words.equation_units, words.units)
-    name = f"{words.unknowns}, line {graph.line}, {n}"
-    values = [listed(graph, v) for v in (*found._values, found.evaluations)]
-    *block_nodes, evaluations = (graph.found(block, k, name, value) for k, value in enumerate(values))
-    block.nodes = tuple(block_nodes)
-    x = [Quantity(graph, node) for node in block.nodes]
-    equations = f(**dict(zip(words.names, x, strict=True)))
-    parts = equations if isinstance(equations, tuple | list) else [equations]
-    wanted = equals if isinstance(equals, tuple | list) else [equals] * len(parts)
-    left = [part for e, w in zip(parts, wanted, strict=True) for part in _parts(lift(graph, e - w), block.nodes[0])]
-    if len(left) != len(words.equations):
-        raise NotRecorded(f"{len(left)} equations where the worksheet has {len(words.equations)}")
-    block.residuals = tuple(part.re for part in left)
-    if block.least:
-        block.level = _level(block)
-    block.targets = tuple(dict.fromkeys(n for w in wanted for n in lift(graph, w).parts if n.op != "constant"))
-    block.rest()
-    block.seen = _seen(graph, block)
-    solved = []
-    for k, (node, unknown, unit) in enumerate(zip(block.nodes, words.names, words.units, strict=True)):
-        told = Told(unknown, words.equations[k], words.equation_units[k], unit)
-        residual = left[k].re if left[k].single else None
-        ends = starts[unknown]
-        solved.append(Solved(node, residual, (ends[0], ends[-1]), told))
-    value = namedtuple("Values", words.names)(*x)
-    return block, Solving(value, tuple(left), tuple(solved), Quantity(graph, evaluations))
 
 
 def _seen(graph: Graph, block: Block) -> bool:

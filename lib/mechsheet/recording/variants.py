@@ -47,7 +47,7 @@ def variants(
     def again(given: Mapping[str, NDArray[np.float64]]) -> Known:
         numbers, known = compute(given)
         for node in dict.fromkeys(found.wanted):
-            known = known & _every(np.isfinite(numbers[node]))
+            known = known & of_all(np.isfinite(numbers[node]))
         space = dict[str, Any]()
         for root, parts in found.parts.items():
             own = np.asarray(found.of.own[root])
@@ -98,9 +98,9 @@ def together(of: Followed, wanted: Iterable[Node], varied: Sequence[str]) -> Tog
 
         known = np.ones(count, dtype=bool)
         for node in of.same:
-            known &= _every(whole(node))
+            known &= of_all(whole(node))
         for node in (*of.exist, *of.found):
-            known &= _every(np.isfinite(whole(node)))
+            known &= of_all(np.isfinite(whole(node)))
         return [whole(node) for node in wanted], known
 
     few = max(1, _MOST // max((node.size for node in order), default=1))
@@ -114,7 +114,7 @@ def together(of: Followed, wanted: Iterable[Node], varied: Sequence[str]) -> Tog
     return every
 
 
-def _every(holds: Values) -> NDArray[np.bool_]:
+def of_all(holds: Values) -> NDArray[np.bool_]:
     """Of which variants a condition holds at all places."""
     return np.asarray(holds.reshape(len(holds), -1).all(1))
 

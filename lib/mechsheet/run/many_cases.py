@@ -15,7 +15,7 @@ from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.cases import RESULTS, Key
 from mechsheet.readers.plan import NotPlanned
 from mechsheet.recording.planned import Followed, followed
-from mechsheet.recording.variants import Together, together
+from mechsheet.recording.variants import Together, of_all, together
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula
@@ -56,7 +56,7 @@ class Way:
             with values_only():
                 numbers, known = self.compute({name: x[at : at + few] for name, x in given.items()})
             for node, own in self.names.items():
-                known = known & _every(numbers[node] == own)
+                known = known & of_all(numbers[node] == own)
             shown = {key: _flat(numbers[node]) / units.parse(unit).factor for key, (node, unit) in self.shown.items()}
             yield Told(shown, {name: _holds(check, numbers) for name, check in self.checks.items()}), known
 
@@ -115,9 +115,9 @@ def _of_tables(of: Followed) -> Iterator[tuple[Key, tuple[Node, str]]]:
 
 def _holds(check: Residual, numbers: Mapping[Node, Values]) -> Values:
     most = _flat(numbers[check.limit])
-    holds = _every(np.isfinite(most))
+    holds = of_all(np.isfinite(most))
     for part in check.parts:
-        holds = holds & _every(check.keeps(_flat(numbers[part]), most))
+        holds = holds & of_all(check.keeps(_flat(numbers[part]), most))
     return holds
 
 
@@ -127,7 +127,3 @@ def _size(x: Values) -> float:
 
 def _flat(x: Values) -> Values:
     return x.reshape(len(x), -1)
-
-
-def _every(holds: Values) -> Values:
-    return np.asarray(_flat(holds).all(1))

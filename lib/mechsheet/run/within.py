@@ -1,4 +1,4 @@
-"""Runs of a worksheet for cases within the tolerances of its inputs, one by one: lines may go another way in each."""
+"""Cases within the tolerances of a worksheet's inputs, in each of which its lines may go another way."""
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
