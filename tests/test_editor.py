@@ -33,7 +33,6 @@ class Editor:
 
     def __init__(self, page, address):
         self.page = page
-        page.set_viewport_size({"width": 1280, "height": 3000})
         page.goto(address)
         self.expect("2 of 2 checks pass")
         alive(page)
