@@ -296,6 +296,28 @@ def test_a_formula_that_loses_digits_is_seen_with_those_that_it_loses(name: str,
         assert f"line {line_of(sheet.path, 'y = ')}" in str(claimed) or claimed.least >= 9
 
 
+COMPUTED = {  # numbers that Python rounds before a quantity meets them
+    "30 / np.pi * g.a": lambda a: 30 / mp.pi * a,
+    "g.a * (1 / 3)": lambda a: a / 3,
+    "g.a - 2.25 / 3": lambda a: a - mpf(9) / 12,
+    "(g.a + 1 / 3) - (1 / 3 + 0.7499999)": lambda a: a - mpf("0.7499999"),
+    "g.a * np.sqrt(2) - 1.06": lambda a: a * mp.sqrt(2) - mpf("1.06"),
+    "np.cos(g.a * (4.18879 / 2) + 2 / 7)": lambda a: mp.cos(a * mpf("2.094395") + mpf(2) / 7),
+}
+
+
+@pytest.mark.parametrize("text", COMPUTED)
+def test_a_number_that_python_has_computed_is_off_by_its_rounding(text: str, tmp_path: Path) -> None:
+    """It had been taken for the number that is meant: 16 digits were claimed of what has fewer."""
+    sheet = own(tmp_path, f"y = {text}  # [-] rounded before")
+    for a in np.random.default_rng(0).uniform(0.5, 1.0, 20):
+        names = {**sheet.run(sheet.results, {"g": sheet.inputs(a=a)}), "__file__": sheet.path}
+        (claimed,) = (c for c in proof_of(names, sheet, record(names, sheet, whole=True)).columns if c.name == "y")
+        exactly = COMPUTED[text](mpf(a))
+        off = abs(mpf(float(names["y"])) - exactly)
+        assert not off or claimed.least <= -mp.log10(off / abs(exactly)), a
+
+
 def line_of(path: str, text: str) -> int:
     return 1 + next(n for n, line in enumerate(Path(path).read_text().splitlines()) if text in line)
 

@@ -186,17 +186,21 @@ _OF_PI = {p * np.pi / q: (p, q) for p, q in _PARTS} | {p * (np.pi / q): (p, q) f
 
 
 _WRITTEN = 12  # digits at most of a number that somebody has written
+_COMPUTED = 2.0**-52  # of any other: its rounding, and that of what it is made of
 
 
 def constant(x: Any) -> Any:
-    """The ball of a number that a formula has: of 0.2 a fifth, and of a part of pi what it stands for."""
+    """The ball of a number that a formula has: of 0.2 a fifth, and of a part of pi what it stands for.
+
+    One of many digits has been computed, as 30 / pi or 1 / 3, and is off by the rounding of that.
+    """
     p, q = _OF_PI.get(abs(x), (0, 1))
     if p:
         return arb.pi() * (p if x > 0 else -p) / q
     if not isinstance(x, float) or not np.isfinite(x) or Fraction(text := repr(x)) == Fraction(x):
         return ball(x)
     digits = text.partition("e")[0].strip("-0.").replace(".", "")
-    return arb(text) if len(digits) <= _WRITTEN else arb(x)
+    return arb(text) if len(digits) <= _WRITTEN else arb(x, abs(x) * _COMPUTED)
 
 
 def counted(condition: float) -> Any:
