@@ -13,7 +13,9 @@ from hypothesis import strategies as st
 from own_worksheet import written
 
 from mechsheet import load
-from mechsheet.worksheet import inputs, limits
+from mechsheet.document.left_out import left_out
+from mechsheet.run import report
+from mechsheet.worksheet import inputs, limits, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import number
 
@@ -267,3 +269,38 @@ def test_a_value_of_the_class_that_cannot_be_used_is_told_with_its_line(line: st
     with pytest.raises(SheetError, match=r"^[^:]*$"):
         inputs.build(load(path).inputs, {"a": -1.0})
     assert inputs.build(load(path).inputs, {"a": 3.0}).a > 0
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            "d: float = 42  # [mm] diameter",
+            "d = 42000 mm; 42 is taken in m: write 42 * mm, or 42 * m where that is meant",
+        ),
+        ("a: float = 20  # [deg] angle", "a = 1146 deg; 20 is taken in rad: write 20 * deg, or 20 * rad where that is"),
+        ("F: float = 2.7  # [kN] force", "F = 0.0027 kN; 2.7 is taken in N: write 2.7 * kN, or"),
+        ("p: float = 6  # [bar] pressure", "p = 0.00006 bar; 6 is taken in Pa: write 6 * bar, or"),
+        ("e: float = 85  # [%] efficiency", "e = 8500 %; 85 is taken as it stands: write 85 / 100"),
+        ("d: float = 0.042  # [mm] diameter", ""),
+        ("F: float = 50e3  # [kN] force", ""),
+        ("a: float = 0.35  # [deg] angle", ""),
+        ("d: float = 42 * mm  # [mm] diameter", ""),
+        ("l: float = 42  # [m] length", ""),
+        ("F: float = 0  # [kN] force", ""),
+    ],
+)
+def test_a_number_that_is_hardly_meant_in_si_is_told(line: str, said: str, tmp_path: Path, capsys) -> None:
+    """42 in a line of millimetres is 42 m: nothing had said so where no limit stands."""
+    path = tmp_path / "alone.py"
+    setup = "from mechsheet import ask, inputs, read\nfrom mechsheet.units import mm"
+    path.write_text(written(setup, line, "y = g.F if hasattr(g, 'F') else 1  # [-] y"))
+    names = {**load(path).run_whole(), "__file__": str(path)}
+    number = next(n for n, text in enumerate(path.read_text().splitlines(), 1) if line in text)
+    told = [text for text in report._left_out(names, path) if "is taken" in text]
+    assert [text.startswith(f"alone.py, line {number}: {said}") for text in told] == [True] * bool(said), told
+    texts = ("from mechsheet.units import mm\nfrom mechsheet import inputs", f"@inputs\nclass Given:\n    {line}")
+    cells = source.of_texts(tuple((text, "") for text in texts))
+    in_editor = [each for each in left_out(cells, names) if "is taken" in each.why]
+    assert [(each.cell, each.line) for each in in_editor] == [(1, 3)] * bool(said)
+    assert all(each.why.startswith(said) for each in in_editor)

@@ -1,4 +1,7 @@
-"""What a document leaves out without a word: formulas that no typeset shows, numbers that formulas read undeclared."""
+"""What a document leaves out without a word: formulas that no typeset shows, numbers that formulas read undeclared.
+
+And units that the numbers of inputs lack.
+"""
 
 import ast
 from collections.abc import Iterable, Iterator, Mapping
@@ -7,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.units import Constant
-from mechsheet.worksheet import source
+from mechsheet.worksheet import alone, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
@@ -62,6 +65,18 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                 case ast.Assign([ast.Name(name)]) if name in met - own and _is_quantity(names.get(name)):
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
+                case ast.ClassDef(name):
+                    yield from (LeftOut(n, line, why) for line, why in _without_unit(node, names.get(name)))
+
+
+def _without_unit(node: ast.ClassDef, cls: Any) -> Iterator[tuple[int, str]]:
+    """Lines of a class of inputs whose number is hardly meant in the unit in which it is taken."""
+    for field in node.body:
+        match field:
+            case ast.AnnAssign(ast.Name(name)):
+                _, text, unit = getattr(cls, "__places__", {}).get(name, ("", "", ""))
+                if text and (why := alone.unlikely(text, unit)):
+                    yield field.lineno, f"{name} = {why}"
 
 
 def _unbracketed(cell: source.Cell, node: ast.stmt, names: Mapping[str, Any]) -> str:

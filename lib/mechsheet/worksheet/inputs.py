@@ -14,8 +14,8 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.units import parse, si
-from mechsheet.worksheet import deviation, errors, limits, lines, numbers, source
+from mechsheet.units import parse
+from mechsheet.worksheet import alone, deviation, errors, limits, lines, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch
 from mechsheet.worksheet.lists import Rows
@@ -141,8 +141,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
                 raise SheetError(f"{place}: {error}") from None
         found.append(own)
         places[name] = place
-        alone = kind is float and isinstance(node.value, ast.Constant) and not mistake and parse(unit).factor != 1
-        written[name] = place, ast.unparse(node.value) if alone and node.value else "", unit
+        bare = kind is float and isinstance(node.value, ast.Constant) and not mistake and parse(unit).factor != 1
+        written[name] = place, ast.unparse(node.value) if bare and node.value else "", unit
     if without := [f.name for f in found if f.name not in vars(cls)]:
         if len(without) < len(found):
             needs = f"input {without[0]} needs a value, such as {without[0]}: float = 1.0"
@@ -243,8 +243,7 @@ def _at_its_line(cls: Any, refusal: SheetError) -> SheetError:
     if name not in cls.__places__ or str(refusal) not in map(str, _refusals(cls, fields, fields)):
         return refusal
     place, text, unit = cls.__places__[name]
-    taken = f"; {text} is taken in {numbers.in_text(si(unit))}: write {text} * {unit}" if text else ""
-    return SheetError(f"{place}: {refusal}{taken}", name)
+    return SheetError(f"{place}: {refusal}{f'; {alone.taken(text, unit)}' if text else ''}", name)
 
 
 def _refusals(g: Any, fields: Iterable[Input], given: Iterable[Input]) -> Iterator[SheetError]:
