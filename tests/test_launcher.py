@@ -8,6 +8,7 @@ import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import sys
 import tomllib
@@ -35,6 +36,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
         return 7
 
     monkeypatch.setattr(launcher, "call", record)
+    monkeypatch.setattr(launcher, "unbound", lambda host, port: "")  # whatever else is served on this computer
     return made
 
 
@@ -218,10 +220,46 @@ def test_serve_shows_a_worksheet_to_who_knows_the_password(sheet: Path, calls: l
     start = [sys.executable, "-m", "marimo", "run"]
     assert launcher.main(["serve", str(sheet)]) == 7
     assert calls.pop() == [*start, str(sheet)]
-    for options in (["--password-file=secret"], ["--password-file", "secret"]):
+    secret = sheet.with_name("secret")
+    secret.write_text("sesame\n")
+    for options in ([f"--password-file={secret}"], ["--password-file", str(secret)]):
         assert launcher.main(["serve", str(sheet), *options]) == 7
         handed = [option.replace("--password", "--token-password") for option in options]
         assert calls.pop() == [*start, "--token", *handed, str(sheet)]
+
+
+@pytest.mark.parametrize("text", [None, "", " \n", "sésame\n"])
+def test_a_password_that_nobody_could_give_is_refused(sheet: Path, calls: list[list[str]], text: str | None) -> None:
+    """marimo compares ASCII alone: to each visitor it would have answered with an error."""
+    secret = sheet.with_name("secret")
+    if text is not None:
+        secret.write_text(text, encoding="utf-8")
+    assert f"password-file = {secret} must be a file" in refusal("serve", str(sheet), f"--password-file={secret}")
+    assert calls == []
+
+
+@pytest.mark.parametrize("command", ["serve", "edit"])
+@pytest.mark.parametrize("option", ["--port", "--host", "--password-file"])
+def test_an_option_without_its_value_takes_no_worksheet_for_it(
+    command: str, option: str, sheet: Path, calls: list[list[str]]
+) -> None:
+    assert f"{option} needs a value" in refusal(command, str(sheet), option)
+    assert f"{option} needs a value" in refusal(command, option)
+    assert calls == []
+
+
+def test_an_address_at_which_nothing_can_be_served_is_refused(sheet: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Else the page of another program is told to be this one, or a traceback is all there is."""
+    monkeypatch.setattr(launcher, "call", lambda *_, **__: 7)
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        taken = other.getsockname()[1]
+        for command in ("serve", "edit"):
+            assert f"port = {taken} is taken" in refusal(command, str(sheet), f"--port={taken}")
+    assert launcher.main(["serve", str(sheet), f"--port={taken}"]) == 7
+    for host in ("192.0.2.1", "no.such.host.invalid", "sheet.py"):
+        assert f"host = {host}: nothing can be served" in refusal("serve", str(sheet), f"--host={host}", "--no-token")
 
 
 def test_a_worksheet_runs_as_it_opens_outside_a_clone_too(

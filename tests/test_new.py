@@ -30,3 +30,14 @@ def test_one_that_is_there_stays(tmp_path, monkeypatch, capsys):
     with pytest.raises(SystemExit):
         launcher.new("lever")
     assert "is there already" in capsys.readouterr().err and Path("lever.py").read_text() == "mine"
+
+
+def test_a_name_begins_with_a_letter_of_any_alphabet(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(launcher, "ROOT", tmp_path / "nowhere")
+    monkeypatch.chdir(tmp_path)
+    Path("page.css").write_text("/* mine */")
+    assert launcher.new("Übung") == 0 and 'app_title="Übung"' in Path("Übung.py").read_text("utf-8")
+    for name in ("_lever", "1lever", "screw jack"):
+        with pytest.raises(SystemExit):
+            launcher.new(name)
+        assert "must be a letter, then letters, digits or _" in capsys.readouterr().err

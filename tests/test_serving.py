@@ -41,6 +41,7 @@ def served(tmp_path_factory):
     own = {"hitch": str(sheet), "0.0.0.0": "127.0.0.1", "8080": str(port)}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(launcher, "call", lambda command, **_: command)
+        patch.chdir(folder)
         command = launcher.main([*(own.get(option, option) for option in written[1].split()), "--headless"])
     assert {*own.values()} <= {*command}
     with subprocess.Popen(

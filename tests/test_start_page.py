@@ -19,7 +19,8 @@ import pytest
 from conftest import WITHIN, answers, installed
 
 from mechsheet import __main__ as launcher
-from mechsheet.run import glance
+from mechsheet.page import cards
+from mechsheet.run import glance, start_page
 from tests.own_worksheet import own
 
 TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
@@ -129,3 +130,23 @@ def test_a_verdict_of_before_a_change_says_so_until_the_worksheet_is_run_again(s
     server.lever.unlink()
     assert "its file is gone" in server.at_rest()[0]
     server.lever.write_text(text, encoding="utf-8")
+
+
+def test_the_card_of_a_worksheet_that_could_not_be_read_leads_nowhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """marimo would serve none beside it, so it is left out, and says that it does not know the file."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(launcher, "folders", list)
+    started = list[dict[str, str]]()
+    monkeypatch.setattr(launcher, "call", lambda _, settings: started.append(settings) or 7)
+    Path("lever.py").write_text(TEMPLATE.replace("TITLE", "Lever"), encoding="utf-8")
+    Path("unread.py").write_text(TEMPLATE.replace("TITLE", "Unread").replace("W: float = ", "W: float = = "), "utf-8")
+    assert launcher.page("serve", [], []) == 7
+    assert "unread.py, line " in capsys.readouterr().err
+    for name, value in started[0].items():
+        monkeypatch.setenv(name, value)
+    page = start_page.StartPage(None)  # type: ignore[arg-type]  # no server behind it
+    lever, unread = (cards.card(page._card(str(tmp_path / name), "")) for name in ("lever.py", "unread.py"))
+    assert "href=" in lever and "could not be read" not in lever
+    assert "href=" not in unread and "could not be read" in unread

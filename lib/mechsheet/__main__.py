@@ -10,6 +10,7 @@ import sys
 if not __package__:  # run as a folder, which heads the path: its modules must not shadow the standard library's
     del sys.path[0]
 
+import errno
 import os
 import re
 import signal
@@ -124,12 +125,19 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
     """Exit code of marimo's server of a worksheet, or of the start page and all worksheets."""
     import json  # on use: only a page needs it
 
-    port, host = setting(options, "--port"), setting(options, "--host")
+    port, host, password = (setting(options, name) for name in ("--port", "--host", "--password-file"))
+    if options[-1:] and options[-1] in ("--port", "--host", "--password-file"):
+        raise refused(f"{options[-1]} needs a value behind it")
     if port and not (port.isdecimal() and 0 < int(port) < 65536):
         raise refused(f"port = {port} must be a number from 1 to 65535")
     guarded = any(option.startswith(("--password-file", "--token", "--no-token")) for option in options)
     if command == "serve" and host not in ("", "localhost", "127.0.0.1", "::1") and not guarded:
         raise refused(f"--host={host} shows the pages to whoever is on the network: give --password-file=FILE")
+    if password and password != "-" and not is_password(password):
+        raise refused(f"password-file = {password} must be a file with a password of ASCII characters, such as sesame")
+    unusable = unbound(host or "127.0.0.1", int(port or 0))
+    if unusable:
+        raise refused(unusable)
     settings = {}
     if not sheets:
         groups = [(title, paths) for title, paths in grouped().items() if paths]
@@ -145,11 +153,13 @@ def page(command: str, sheets: "list[str]", options: "list[str]") -> int:
     mistakes = {sheet: unread(sheet) for sheet in sheets}
     for told in filter(None, mistakes.values()):
         print(f"mechsheet: {told}", file=sys.stderr)
+    left_out = [sheet for sheet in sheets if mistakes[sheet]]
     sheets = [sheet for sheet in sheets if not mistakes[sheet]]
     if not sheets:
         return 1
-    password = "--password-file"
-    options = [re.sub(f"^{password}(?==|$)", "--token-password-file", option) for option in options]
+    if left_out and settings:
+        settings["MECHSHEET_LEFT_OUT"] = json.dumps(left_out)
+    options = [re.sub("^--password-file(?==|$)", "--token-password-file", option) for option in options]
     if any(option.startswith("--token-password-file") for option in options):
         options = ["--token", *options]
     return call([interpreter(""), "-m", "marimo", "run", *options, *sheets], settings=settings)
@@ -160,6 +170,33 @@ def setting(options: "list[str]", name: str) -> str:
     given = [text.partition("=")[2] for text in options if text.startswith(f"{name}=")]
     following = [options[n + 1] for n, text in enumerate(options[:-1]) if text == name]
     return [*given, *following, ""][0]
+
+
+def is_password(path: str) -> bool:
+    """Whether a file has a password that browsers can send: marimo compares no others."""
+    try:
+        text = Path(path).read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError):
+        return False
+    return bool(text) and text.isascii()
+
+
+def unbound(host: str, port: int) -> str:
+    """Why no server can be at an address, of which marimo would tell the visitor's address first, or a traceback."""
+    import socket  # on use: only a page needs it
+
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
+        with socket.socket(family, kind) as tried:
+            if os.name == "posix":  # as the server will; elsewhere it would share what is taken
+                tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            tried.bind(address)
+        return ""
+    except (OSError, UnicodeError) as error:
+        if getattr(error, "errno", None) == errno.EADDRINUSE:
+            return f"port = {port} is taken by another program: give another one, or none"
+        at = f"host = {host}, port = {port}" if port else f"host = {host}"
+        return f"{at}: nothing can be served there: {getattr(error, 'strerror', None) or error}"
 
 
 def unread(sheet: str) -> str:
@@ -227,7 +264,7 @@ def new(name: str, like: str = "") -> int:
     """Write a worksheet from the template or like another one, with what it needs: within a clone into worksheets/."""
     import shutil  # on use: to compute a worksheet is what nearly every call is for
 
-    if not re.match(r"[A-Za-z]\w*$", name):
+    if not (name.isidentifier() and name[0].isalpha()):
         raise refused(f"name of the worksheet = {name!r} must be a letter, then letters, digits or _")
     import keyword  # on use: as above
 

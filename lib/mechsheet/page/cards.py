@@ -12,7 +12,7 @@ class Card:
     """A worksheet by its path; of its last run the kind of verdict, what it told, a drawing as SVG, and when it was.
 
     ``holds`` is false where that was another worksheet or another package; then ``when`` says what is done about it.
-    One that takes minutes waits ``to_run`` until someone asks for it.
+    One that takes minutes waits ``to_run`` until someone asks for it. Where it ``opens`` its card leads to it.
     """
 
     path: str
@@ -23,14 +23,16 @@ class Card:
     picture: str = ""
     holds: bool = True
     to_run: bool = False
+    opens: bool = True
 
 
 def card(shown: Card) -> str:
-    """HTML of a worksheet, which leads to it."""
+    """HTML of a worksheet, which leads to it where it opens."""
     told = f'<span class="{shown.kind}">{escape(shown.told)}</span>' if shown.kind else ""
+    leads = f' href="?file={quote(shown.path)}"' if shown.opens else ""
     asks = f'<button data-run="{quote(shown.path)}">run it: it searches or measures, for minutes</button>'
     return (
-        f'<div><a href="?file={quote(shown.path)}"><i{"" if shown.holds else " class=old"}>{shown.picture}</i>'
+        f"<div><a{leads}><i{'' if shown.holds else ' class=old'}>{shown.picture}</i>"
         f"<b>{escape(shown.title)}</b><code>{escape(Path(shown.path).stem)}</code>"
         f"{told}<small>{escape(shown.when)}</small></a>{asks if shown.to_run else ''}</div>"
     )

@@ -69,6 +69,7 @@ class StartPage:
     def __init__(self, app: ASGIApp) -> None:
         self._app, self._runs = app, Runs()
         self._groups: list[tuple[str, dict[str, str]]] = json.loads(os.environ.get("MECHSHEET_START", "[]"))
+        self._left_out: list[str] = json.loads(os.environ.get("MECHSHEET_LEFT_OUT", "[]"))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         answer = self._answer(Request(scope)) if self._groups and scope["type"] == "http" else None
@@ -102,8 +103,11 @@ class StartPage:
             when += ", before it or the package changed" if last else ""
             state = "it is being run" if path in self._runs.running else "it waits to be run"
             when += f"; {state}" if path in self._runs.asked else self._runs.failed.get(path, "")
+        opens = path not in self._left_out
+        if not opens:
+            when += "; it opens once this is started anew: it could not be read when it was"
         to_run = long and not holds and path not in self._runs.asked
-        card = cards.Card(path, title, when, holds=holds, to_run=to_run)
+        card = cards.Card(path, title, when, holds=holds, to_run=to_run, opens=opens)
         return replace(card, kind=last.kind, told=last.told, picture=last.picture) if last else card
 
 
