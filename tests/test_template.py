@@ -37,6 +37,11 @@ def test_runs_and_writes_its_workbook(lever):
     book = load_workbook(lever.parent / "gear_lever.xlsx")
     assert book.sheetnames[:6] == ["Front", "Inputs", "Input tables", "Find", "1 Moment of the lever", "2 Load cases"]
     assert len(book["1 Moment of the lever"]._charts) == 1
+    tables = book["Input tables"]  # of one column, under a title and a note that paper has to hold
+    *_, last = tables[tables.print_area.split("!")[-1].replace("$", "")][0]
+    printed = sum(tables.column_dimensions[letter].width for letter in "ABCD"[: last.column])
+    assert printed > 1.4 * len(tables["A1"].value) and 2 * printed > 0.75 * len(tables["A2"].value)
+    assert f"A2:{last.column_letter}2" in tables.merged_cells
     changed = as_script(lever, "--F=-5")
     assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
 

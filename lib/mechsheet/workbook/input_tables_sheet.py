@@ -18,6 +18,7 @@ SHEET = "Input tables"
 _FIRST = 7  # rows over the numbers: title, note, name of the table, meanings, limits, symbols, units
 _WIDTH = 12  # characters of a column, at least
 _HELD = 4  # columns of what is held of each column that is edited: in SI units, as read, as exported, differs
+_NOTED = 480  # pixels in which the title and, in two lines, the note find room
 _NOTE = "Rows may be added below or taken out. The cells of this workbook are made for as many as there are: run the "
 _NOTE += "worksheet with it as a scene."
 
@@ -108,11 +109,14 @@ def write(book: Book, grids: Sequence[Grid], others: Mapping[str, str], formulas
     characters = {s.edited: _characters(s.column) for s in spots}
     end = max(characters) + 1
     widths = [looks.CHAR * characters.get(n, 4) + looks.PAD for n in range(end)]
+    if sum(widths) < _NOTED:  # paper ends where the grids do: the empty column behind them takes what is over them
+        widths, end = [*widths, _NOTED - sum(widths)], end + 1
     widths += [looks.CHAR * _WIDTH + looks.PAD] * (_HELD * len(spots) if formulas else 0)
     size = sum(widths[:end]), looks.ROW * (rows + _FIRST + 3)
     sheet = book.sheet(SHEET, f"{book.title} - tables of the inputs", widths, _FIRST, size)
     sheet.print_area(0, 0, _FIRST + rows - 1, end - 1)
-    put(sheet, 1, 0, _NOTE, book.style(looks.NOTE))
+    sheet.merge_range(1, 0, 1, end - 1, _NOTE, book.style(looks.NOTE, {"text_wrap": True}))
+    sheet.set_row_pixels(1, looks.ROW * 2)
     for k in range(rows):
         put(sheet, _FIRST + k, 0, k + 1, book.style(looks.CELL, looks.NUMBER, looks.KEY))
     at, text = 1, book.style(looks.SECTION, {"text_wrap": True, "indent": 0})
