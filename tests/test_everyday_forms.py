@@ -4,6 +4,7 @@ and of those that meet a condition.
 All are followed for other inputs, without a guard: the next size of a list, the law that was chosen, a matrix filled.
 """
 
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from test_recalculation import edit
 
 from mechsheet import evaluate
 from mechsheet.quantities.written import Written
+from mechsheet.readers.numbers import numbers
 from mechsheet.readers.searched import search
 from mechsheet.run import report
 from mechsheet.worksheet import cells
@@ -423,3 +425,35 @@ def test_a_root_that_cells_cannot_tell_is_told_in_words(tmp_path: Path) -> None:
     _, recording = recorded(own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"))
     search(recording)
     assert [gap.names for gap in recording.unsolved] == [("root 1",)]
+
+
+RAISED = [
+    "if g.k == 1:\n    C = 2 * g.F\nelif g.k == 2:\n    C = 3 * g.F\nelse:\n    raise ValueError('unknown')\ny = C + 1",
+    (
+        "match g.k:\n    case 0:\n        C = g.F\n    case 1:\n        C = 2 * g.F\n    case 2:\n        C = g.a\n"
+        "    case _:\n        raise ValueError(f'unknown {g.k}')\ny = C + 1"
+    ),
+    (
+        "def f(k, F):\n    if F <= 1:\n        raise ValueError('F')\n    if k == 1:\n        return 2 * F\n"
+        "    elif k == 2:\n        return 3 * F\n    raise ValueError(f'unknown {k}')\ny = f(g.k, g.F) + 1"
+    ),
+    (  # raised only where the function is asked
+        "def f(k, F):\n    if F <= 1:\n        raise ValueError('F')\n    return k * F\n"
+        "y = (f(g.k, g.F) if g.k > 1 else 7.0) + (1.0 if g.k != 3 else f(g.k, g.F))"
+    ),
+]
+
+
+@pytest.mark.parametrize("k", [1, 2])
+@pytest.mark.parametrize("lines", RAISED)
+def test_all_ways_that_do_not_raise_are_followed(lines: str, k: int, tmp_path: Path) -> None:
+    """Whichever of them the worksheet goes; where it raises an error there is no number."""
+    sheet = own(tmp_path, f'{lines}\nresult = np.atleast_1d(y) * 1.0  # [-] line\ntable_2 = table("2", "Two", result)')
+    _, recording = recorded(sheet, k=k)
+    for other, F in product(range(4), (2.5, 0.5, 4.0)):
+        try:
+            expected = by_cells(sheet.path, ["result"], k=other, F=F)["result"]
+        except ValueError:
+            expected = np.array([np.nan])
+        known = numbers([recording.tables["2"][0].re], {recording.inputs["k"]: other, recording.inputs["F"]: F})
+        np.testing.assert_allclose(known[recording.tables["2"][0].re], expected, rtol=1e-12, err_msg=f"{other} {F}")

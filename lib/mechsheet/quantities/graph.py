@@ -97,6 +97,7 @@ class Graph(Lengths):
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
         self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
+        self.ways = list[Any]()  # conditions of those that are recorded now, one in another
         self.labels: dict[Node, Label] = {}
         self.chosen = list[tuple[Any, Any, str]]()  # quantities of which places were taken by size, the axis, and how
 

@@ -2,11 +2,9 @@
 
 import builtins
 import operator
-import sys
 from collections.abc import Callable, Iterable
 from copy import copy
 from functools import partial, reduce
-from pathlib import Path
 from types import FunctionType
 from typing import Any
 
@@ -14,23 +12,22 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import trunc, whole
-from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
-from mechsheet.quantities.node import bottom_up
+from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
-from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, quantities
+from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording.memory import Memory, may_change, names_of
+from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
 
 NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = NUMBERS | np.bool_ | np.ndarray
-_LIBRARY = str(Path(__file__).parents[1])
 _SORTED = 10  # rows that are put in order: each may stand at each place
 _ROWS = 200  # of a table at which a quantity points
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
@@ -69,13 +66,25 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
     own = next((f.__globals__ for f in (now, later) if isinstance(f, FunctionType)), {})
     before = Memory([*_reached(now), *_reached(later), *given, *named.values()], own)
-    value, both = now(*given, **named), None
+    looked, holds, both = dict(graph.looked), bool(condition.value), None
+    try:
+        value = on_way(condition, holds, now, *given, **named)
+    except Refused:  # of a way that leads here is only supposed that it is gone
+        if before.changed() or way_may_change(later):
+            raise
+        graph.looked = looked
+        value = on_way(condition, not holds, later, *given, **named)
+        only(condition, not holds)
+        return value
     looked = dict(graph.looked)
     if graph.supposed < _DEEPEST and not before.changed() and not way_may_change(later):
         graph.supposed += 1
         try:
-            other = later(*given, **named)
-            both = merged(condition, *((value, other) if condition.value else (other, value)))
+            other = on_way(condition, not holds, later, *given, **named)
+            both = merged(condition, *((value, other) if holds else (other, value)))
+        except Refused:
+            graph.looked, both = looked, value
+            only(condition, holds)
         except (Exception, NotRecorded):
             both = None
         finally:
@@ -288,27 +297,6 @@ def _of_option(container: dict[Any, Any], key: Any, is_it: dict[str, Any]) -> An
     return container[key] if result is None else result
 
 
-def handled(error: BaseException) -> None:
-    """An exception that the worksheet handles may be one of recorded quantities alone."""
-    raise NotRecorded(f"it handles an error ({error!r})")
-
-
-def tried(*values: Any) -> Any:
-    """What a worksheet makes where it handles errors: of what is no number Python may have made one."""
-    graph = current.get()
-    if sys._getframe(1).f_code.co_filename.startswith(_LIBRARY):  # which handles errors whatever the numbers are
-        return values[0] if values else None
-    for node in bottom_up((node for value in quantities(values) for node in value.nodes), ()):
-        if node.op in PARTIAL and node not in graph.always:
-            finite: Any = np.isfinite(Quantity(graph, node))
-            if not finite.reduced("all"):
-                raise NotRecorded("it may handle an error")
-        elif node.op == "where" and np.isfinite(node.value).all() and any(np.isnan(a.value).any() for a in node.args):
-            finite = np.isfinite(Quantity(graph, node))  # such as an element that there is
-            bool(finite.reduced("all"))
-    return values[0] if values else None
-
-
 def _is_whole(values: Any) -> bool:
     """Whether there is no telling how many numbers these are for other inputs."""
     return isinstance(values, Selected) or is_any_length(values)
@@ -428,7 +416,6 @@ def length(x: Any) -> Any:
 
 CALLS: dict[str, Any] = {
     "choice": choice, "said": said, "element": element, "get": got,
-    "handled": handled, "tried": tried,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined_kept,
     "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,

@@ -9,11 +9,10 @@ import ast
 import inspect
 import pickle
 import textwrap
-from collections.abc import Iterator
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row, rows_checked
+from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row, raised, rows_checked
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -36,15 +35,24 @@ from mechsheet.recording.forms import (
     tried,
 )
 from mechsheet.recording.summed import as_sums
+from mechsheet.recording.ways import (
+    ends,
+    is_of_the_whole,
+    looking,
+    only_binds_or_ends,
+    only_binds_or_raises,
+    returning,
+    unbound_left,
+)
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
-CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
 CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
-    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With),
+    *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With, ast.Raise),
     *(ast.ListComp, ast.GeneratorExp),
 )
 
@@ -189,7 +197,7 @@ class _Rewriting(ast.NodeTransformer):
         if parts := set_parts(node):
             return [line for part in parts for line in self._put_where(node, *part)]
         ways = node.body, node.orelse
-        if not all(_only_binds(line) for way in ways for line in way):
+        if not all(only_binds_or_raises(line) for way in ways for line in way):
             self.generic_visit(node)
             return node
         then, otherwise = ({name for line in way for name in bound(line)} for way in ways)
@@ -218,26 +226,26 @@ class _Rewriting(ast.NodeTransformer):
         if ends and isinstance(node.target, ast.Tuple):
             row = f"recorded row {node.lineno}"
             parts = ast.copy_location(ast.Assign([node.target], ast.Name(row, ast.Load())), node)
-            if all(map(_only_binds_or_ends, body := [parts, *node.body])):
+            if all(map(only_binds_or_ends, body := [parts, *node.body])):
                 node.target, node.body = ast.Name(row, ast.Store()), body
         if not (ends and isinstance(node.target, ast.Name)):
             sums = None if ends or hasattr(node, "as_sums") else as_sums(node)
             node.as_sums = True  # type: ignore[attr-defined]  # it is looked at no more
             return [self.generic_visit(line) for line in sums or [node]]
-        if node.orelse and all(map(_only_binds_or_ends, node.body)):
-            left = [*_found(node, node.orelse), _unbound_left(node)]
+        if node.orelse and all(map(only_binds_or_ends, node.body)):
+            left = [*looking(node, node.orelse), unbound_left(node)]
             return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
         return self._repeated(node, node.target.id, gone_through(node.iter), node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
         """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
-        if node.orelse or _is_of_the_whole(items) or not all(map(_only_binds_or_ends, body)):
+        if node.orelse or is_of_the_whole(items) or not all(map(only_binds_or_ends, body)):
             self.generic_visit(node)
             return node
         names = sorted({name for line in body for name in bound(line)} | ({item} if item else set()))
         turn = [*body, ast.Continue()]
         given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
-        ways = [way for line in turn for way in _returning(line, names)]
+        ways = [way for line in turn for way in returning(line, names)]
         function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
         known = call("known", node, _call_of("locals"), *map(ast.Constant, names))
         place = ast.Constant(names.index(item) if item else None)
@@ -253,22 +261,28 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
-        if not any(_is_of_the_whole(part) for part in ast.walk(node)):
+        if not any(is_of_the_whole(part) for part in ast.walk(node)):
             node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):
-                if isinstance(line, ast.For) and _ends(node.body[n + 1 :]) and (left := left_for(line)):
-                    node.body[n:] = [*_found(line, node.body[n + 1 :]), left]
+                if isinstance(line, ast.For) and ends(node.body[n + 1 :]) and (left := left_for(line)):
+                    node.body[n:] = [*looking(line, node.body[n + 1 :]), left]
                     break
             for n, line in enumerate(node.body):
                 if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
                     rest = node.body[n + 1 :]
-                    if _ends(line.body) or _ends(line.orelse):
-                        ways = [way if _ends(way) else [*way, *rest] for way in (line.body, line.orelse)]
+                    if ends(line.body) or ends(line.orelse):
+                        ways = [way if ends(way) else [*way, *rest] for way in (line.body, line.orelse)]
                         names = sorted({name for way in ways for part in way for name in bound(part)})
                         defined, chosen = _both_ways(line, ways[0], ways[1], names)
                         node.body = [*node.body[:n], *defined, ast.copy_location(ast.Return(chosen), line)]
                     break
         self.generic_visit(node)
+        return node
+
+    def visit_Raise(self, node: ast.Raise) -> ast.AST:
+        self.generic_visit(node)
+        if node.exc and not any(isinstance(part, SCOPED) for part in ast.walk(node.exc)):
+            node.exc = call("raised", node, later(node.exc))
         return node
 
     def visit_Try(self, node: ast.Try | ast.TryStar | ast.With) -> ast.AST:
@@ -277,68 +291,6 @@ class _Rewriting(ast.NodeTransformer):
         return node
 
     visit_TryStar = visit_With = visit_Try
-
-
-def _only_binds(line: ast.stmt) -> bool:
-    """Whether a statement does nothing but give names values."""
-    match line:
-        case ast.If(test, body, orelse):
-            return not _is_of_the_whole(test) and all(map(_only_binds, [*body, *orelse]))
-        case ast.Assign(targets, value):
-            names = all(isinstance(p, ast.Name | ast.Tuple | ast.Store) for t in targets for p in ast.walk(t))
-        case ast.AugAssign(target, _, value) | ast.AnnAssign(target, _, ast.expr() as value):
-            names = isinstance(target, ast.Name)
-        case ast.Pass():
-            return True
-        case _:
-            return False
-    return names and not any(map(_is_of_the_whole, ast.walk(value)))
-
-
-def _only_binds_or_ends(line: ast.stmt) -> bool:
-    """Whether a statement of a loop's turn does nothing but give names values, or end the turn or the loop."""
-    match line:
-        case ast.If(test, body, orelse):
-            return not _is_of_the_whole(test) and all(map(_only_binds_or_ends, [*body, *orelse]))
-        case ast.Break() | ast.Continue():
-            return True
-    return _only_binds(line)
-
-
-def _unbound_left(node: ast.For) -> ast.stmt:
-    return ast.copy_location(ast.Delete([ast.Name(f"recorded left {node.lineno}", ast.Del())]), node)
-
-
-def _found(node: ast.For, otherwise: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """A loop that may be left, as one that tells whether it was, and what is done ``otherwise``."""
-    left = f"recorded left {node.lineno}"
-    yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(0.0)), node)
-    body = [each for line in node.body for each in _telling(line, left)]
-    yield ast.copy_location(ast.For(node.target, node.iter, body, []), node)
-    never = ast.Compare(ast.Name(left, ast.Load()), [ast.Eq()], [ast.Constant(0.0)])
-    yield ast.copy_location(ast.If(never, otherwise, []), node)
-
-
-def _telling(line: ast.stmt, left: str) -> Iterator[ast.stmt]:
-    if isinstance(line, ast.Break):
-        yield ast.copy_location(ast.Assign([ast.Name(left, ast.Store())], ast.Constant(1.0)), line)
-    if isinstance(line, ast.If):
-        line.body, line.orelse = (
-            [new for one in way for new in _telling(one, left)] for way in (line.body, line.orelse)
-        )
-    yield line
-
-
-def _returning(line: ast.stmt, names: list[str]) -> list[ast.stmt]:
-    """A statement of a turn, which returns whether the loop ends, and what the names are."""
-    match line:
-        case ast.Break() | ast.Continue():
-            values = [ast.Constant(isinstance(line, ast.Break)), *(ast.Name(name, ast.Load()) for name in names)]
-            return [ast.copy_location(ast.Return(ast.Tuple(values, ast.Load())), line)]
-        case ast.If(test, body, orelse):
-            ways = ([new for one in way for new in _returning(one, names)] for way in (body, orelse))
-            return [ast.copy_location(ast.If(test, *ways), line)]
-    return [line]
 
 
 def _unbound(name: str, node: ast.stmt) -> ast.stmt:
@@ -357,23 +309,6 @@ def _may_be_rewritten(part: ast.AST) -> bool:
                 return name in _NAMES or name in OF_KEPT or name in ("Check", "str")
         return False
     return isinstance(part, _KINDS) or (isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store))
-
-
-def _is_of_the_whole(part: ast.AST) -> bool:
-    """Whether a part of a function is not what it is in a function of its own."""
-    return isinstance(part, (*SCOPED, ast.Global, ast.Nonlocal)) or (
-        isinstance(part, ast.Name) and part.id in ("super", "locals", "__class__")
-    )
-
-
-def _ends(way: list[ast.stmt]) -> bool:
-    """Whether a way leaves the function, whatever is decided in it."""
-    match way:
-        case [*_, ast.Return() | ast.Raise()]:
-            return True
-        case [*_, ast.If(_, body, orelse)]:
-            return _ends(body) and _ends(orelse)
-    return False
 
 
 def _both_ways(
