@@ -89,7 +89,7 @@ class CellFormulas:
         if node.size == 1:
             return [self.formula(node, factor)]
         texts: list[str] = [""] * node.size
-        for rows in _of_one_source(node):
+        for rows in _of_one_source(node) if node.size else ():
             try:
                 self._fill(texts, node, rows, factor)
             except Unlike:

@@ -33,7 +33,9 @@ def contents(table: Table, formulas: SheetFormulas | None) -> Contents:
 
 
 def not_followed(columns: Sequence[Column], grey: Sequence[int]) -> str:
-    """Note of the columns that hold for the exported inputs alone."""
+    """Note of the columns that hold for the exported inputs alone, and of a table without rows, which has no cells."""
+    if not len(columns[0].values):
+        return "No rows for the exported inputs; for others the cells tell none."
     symbols = ", ".join(columns[n].symbol for n in grey)
     return f"As exported, #N/A for other inputs: {symbols}." if grey else ""
 

@@ -118,7 +118,7 @@ def _tab(table: Table, recording: Recording | None) -> str:
 def _listed(table: Table, sheet: str, grey: Sequence[int]) -> Listed:
     """The columns of a table that measure something."""
     at = {id(column): Place("", sheet, looks.FIRST, n) for n, column in enumerate(table.columns)}
-    measuring = [column for column in table.columns if column.unit not in ("", "-")]
+    measuring = [column for column in table.columns if column.unit not in ("", "-") and len(column.values)]
     return Listed(measuring, f"table {table.number}", lambda column: at[id(column)], grey)
 
 

@@ -78,6 +78,8 @@ class Column:
 class Table(Shown):
     """A numbered table; all columns have the same length, the first ones of whole numbers name the rows.
 
+    Without rows, such as those for which a condition holds nowhere, it is shown as one that has none.
+
     What its note says is the name of a quantity where the worksheet has it, or it is one of those ``said``.
     """
 
@@ -89,7 +91,7 @@ class Table(Shown):
     said: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        _some_rows(f"table {self.number}", self.columns)
+        _some_columns(f"table {self.number}", self.columns)
 
     def head(self, count: int) -> "Table":
         """The table with its first rows alone, which its note says."""
@@ -117,7 +119,9 @@ class Figure(Shown):
     every: int = 1  # only every so many positions are marked by a point
 
     def __post_init__(self) -> None:
-        _some_rows(f"figure {self.number}", (self.x, *self.lines), 2)
+        _some_columns(f"figure {self.number}", (self.x, *self.lines), 2)
+        if not len(self.x.values):
+            refuse(SheetError(f"figure {self.number} has no rows"))
 
     logarithmic: ClassVar[bool] = False  # both axes
 
@@ -320,12 +324,10 @@ def usual_decimals(unit: str) -> int:
     return _DECIMALS.get(unit, 3)
 
 
-def _some_rows(what: str, columns: tuple[Column, ...], least: int = 1) -> None:
-    """Refuse what would be shown with fewer columns, or without a row: it would look like a result."""
+def _some_columns(what: str, columns: tuple[Column, ...], least: int = 1) -> None:
+    """Refuse what would be shown with fewer columns: it would look like a result."""
     if len(columns) < least:
         refuse(SheetError(f"{what} needs at least {least} column{'s' * (least > 1)}"))
-    if not all(len(column.values) for column in columns):
-        refuse(SheetError(f"{what} has no rows"))
 
 
 def _input(namespace: Mapping[str, Any], node: ast.expr) -> Input | None:
