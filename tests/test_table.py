@@ -33,7 +33,7 @@ def names():
 
 def test_a_figure_without_rows_is_refused(names):
     names.update(S=names["S"][:0], R56=names["R56"][:0])
-    with pytest.raises(SheetError, match="^figure 1 has no rows$"):
+    with pytest.raises(SheetError, match=r"^figure 1 has no rows$"):
         run('f = figure("1", "T", S, abs(R56))', names)
 
 

@@ -263,3 +263,23 @@ def test_a_number_read_out_of_a_text_holds_while_the_text_is_the_same(read: str,
         known = numbers([*parts, *guards], {recording.inputs["F"]: F})
         shown = all(known[guard] for guard in guards) and not any(np.isnan(known[part]).any() for part in parts)
         assert shown is same, F
+
+
+@pytest.mark.parametrize(
+    ("text", "pieces"),
+    [
+        ('"%.2f N of %d, %g %%" % (g.F, g.F, g.a)', [Number, str, Number, str, Number, str]),
+        ('"F = %s" % g.F', [str, Number]),
+        ('{1: "one", 2: "two"}.get(g.k, "many")', [Either]),
+        ('"%5.2f" % g.a', []),  # which Python writes, seen
+    ],
+)
+def test_numbers_put_in_by_a_percent_sign_and_texts_by_a_number_are_followed(
+    text: str, pieces: list[type], tmp_path: Path
+) -> None:
+    sheet = own(tmp_path, f"said = {text}")
+    names, recording = recorded(sheet)
+    said = recording.values["said"]
+    assert str(names["said"]) == str(getattr(said, "now", said))
+    assert [type(part) for part in getattr(said, "parts", ())] == pieces
+    assert pieces or recording.looked["said"]

@@ -267,6 +267,12 @@ def got(container: Any, key: Any, *otherwise: Any) -> Any:
     known = isinstance(container, dict) and isinstance(key, Quantity) and key.single and otherwise
     if known and all(isinstance(v, NUMBERS) for v in (*container, *container.values(), *otherwise)):
         return _at_key(container, key, *otherwise)
+    if known and all(isinstance(v, NUMBERS) for v in container):
+        result = otherwise[0]
+        for each, value in container.items():
+            result = None if result is None else part_of(key == each, value, result)
+        if result is not None:
+            return result
     return container.get(key.seen().item() if isinstance(key, Quantity) else key, *otherwise)
 
 

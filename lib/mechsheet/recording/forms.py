@@ -2,6 +2,7 @@
 
 import ast
 import copy
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import count
 from string import Formatter
@@ -149,6 +150,38 @@ def formatted(node: ast.Call) -> ast.JoinedStr | None:
             return None
         form = ast.JoinedStr([ast.Constant(spec)]) if spec else None
         pieces.append(ast.FormattedValue(copy.deepcopy(value), -1, form))
+    return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr(pieces), node))
+
+
+_PERCENT = re.compile(r"%(?:(\.\d{1,2})?([efgds])|%)")
+
+
+def by_percent(node: ast.BinOp) -> ast.JoinedStr | None:
+    """``"%.2f N" % F`` as ``f"{F:.2f} N"``; None of anything else, and of another format."""
+    match node:
+        case ast.BinOp(ast.Constant(str(text)), ast.Mod(), ast.Tuple(given)):
+            values = iter(given)
+        case ast.BinOp(ast.Constant(str(text)), ast.Mod(), ast.Name() | ast.Attribute() | ast.BinOp() as value):
+            if "%s" in text and isinstance(value, ast.Name):  # which may be a tuple of one
+                return None
+            values = iter([value])
+        case _:
+            return None
+    pieces, end = list[ast.expr](), 0
+    for found in _PERCENT.finditer(text):
+        pieces.append(ast.Constant(text[end : found.start()]))
+        end, (digits, kind) = found.end(), found.groups()
+        if not kind:
+            pieces.append(ast.Constant("%"))
+        elif (value := next(values, None)) is None or isinstance(value, ast.Starred) or (digits and kind in "ds"):
+            return None
+        else:
+            whole = ast.Call(ast.Name("int", ast.Load()), [value], [])
+            form = None if kind in "ds" else ast.JoinedStr([ast.Constant(f"{digits or '.6'}{kind}")])
+            pieces.append(ast.FormattedValue(copy.deepcopy(whole if kind == "d" else value), -1, form))
+    pieces.append(ast.Constant(text[end:]))
+    if next(values, None) is not None or "%" in _PERCENT.sub("", text):
+        return None
     return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr(pieces), node))
 
 

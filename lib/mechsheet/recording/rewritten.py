@@ -17,6 +17,7 @@ from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
     as_choice,
+    by_percent,
     call,
     formatted,
     gone_through,
@@ -99,6 +100,12 @@ class _Rewriting(ast.NodeTransformer):
             case ast.Call(ast.Attribute(between, "join"), [parts], []):
                 return call("join", node, between, parts)
         return node
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        """A text with numbers put in by ``%``."""
+        if (text := by_percent(node)) is not None:
+            return self.visit_JoinedStr(text)
+        return self.generic_visit(node)
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
         """A text with numbers in it as a call with its pieces, but for what is not simply formatted."""
@@ -308,6 +315,8 @@ def _may_be_rewritten(part: ast.AST) -> bool:
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name in ("Check", "str")
         return False
+    if isinstance(part, ast.BinOp):
+        return by_percent(part) is not None
     return isinstance(part, _KINDS) or (isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store))
 
 
