@@ -161,10 +161,10 @@ def by_percent(node: ast.BinOp) -> ast.JoinedStr | None:
     match node:
         case ast.BinOp(ast.Constant(str(text)), ast.Mod(), ast.Tuple(given)):
             values = iter(given)
-        case ast.BinOp(ast.Constant(str(text)), ast.Mod(), ast.Name() | ast.Attribute() | ast.BinOp() as value):
-            if "%s" in text and isinstance(value, ast.Name):  # which may be a tuple of one
+        case ast.BinOp(ast.Constant(str(text)), ast.Mod(), ast.Name() | ast.Attribute() | ast.BinOp() as alone):
+            if "%s" in text and isinstance(alone, ast.Name):  # which may be a tuple of one
                 return None
-            values = iter([value])
+            values = iter([alone])
         case _:
             return None
     pieces, end = list[ast.expr](), 0
