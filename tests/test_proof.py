@@ -175,6 +175,16 @@ p, q = s_found.value  # [-] one, [-] other"""
     assert not check.passed and "no root is proved there" in check.reason and "line " in check.reason
 
 
+def test_a_table_without_rows_has_nothing_to_prove(tmp_path: Path) -> None:
+    """The proof had ended in an error of numpy's."""
+    lines = """
+far = np.sqrt(x)[x > 100 * g.F]  # [-] of those that are far
+y = np.sqrt(g.a)  # [-] beside them
+table_2 = table("2", "Far", far)"""
+    proof = sheet_of(tmp_path, lines.strip())
+    assert {column.where for column in proof.columns} == {"results", "table 1"} and proof.check().passed
+
+
 def test_numbers_in_the_order_of_their_size_are_proved(tmp_path: Path) -> None:
     """None of them is less than itself, though its ball does not tell: no order had been proved."""
     lines = """

@@ -230,7 +230,8 @@ def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str
     for table in tables:
         recorded = recording.tables.get(table.number, (None,) * len(table.columns))
         for n, (column, quantity) in enumerate(zip(table.columns, recorded, strict=True)):
-            if column.values.dtype.kind in "biuf" and (table.number, n) not in recording.constants:  # which is given
+            given = (table.number, n) in recording.constants
+            if column.values.dtype.kind in "biuf" and column.values.size and not given:
                 line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
                 node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
                 yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
@@ -245,7 +246,7 @@ def _of_lines(
 ) -> Iterator[_Shown]:
     for name, line in known.items():
         quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
-        if not line.has_value or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
+        if not (line.has_value and isinstance(quantity, Quantity) and own.dtype.kind in "biufc" and own.size):
             continue
         if name in fields or (quantity.single and own.size == 1):
             for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):
