@@ -21,7 +21,7 @@ LOST = {  # by the argument, what shows numbers that a workbook cannot show anot
     "every": "table('2', 'Words', x, y, every=g.k)",
     "every, among others": "table('3', 'Words', x, y, **{'every': g.k})",
     "decimals": "table('4', 'Words', x, y, decimals=g.k)",
-    "note by another way": "table('6', 'Words', x, y, note='of %d' % g.k)",
+    "note by another way": "table('6', 'Words', x, y, note='of %3d' % g.k)",
     "every of a figure": "figure('2', 'Words', x, y, every=g.k)",
     "labels": "figure('3', 'Words', x, y, marks={f'k_{g.k}': 1.0})",
     "essential": "Check('essential', -1.0, 2.0, essential=on)",
@@ -30,6 +30,7 @@ LOST = {  # by the argument, what shows numbers that a workbook cannot show anot
 WORDS = [
     "table('5', 'Words', x, y, note=f'of {g.k}')",
     "table('7', f'Words of {g.k}', x, y)",
+    "table('16', 'Words', x, y, note='of %d' % g.k)",
     "figure('4', f'Words of {g.k}', x, y)",
 ]
 FOLLOWED = [
