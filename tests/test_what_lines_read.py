@@ -15,7 +15,7 @@ from mechsheet.html import write as html
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.recording import choices, statement
+from mechsheet.recording import raised, statement
 from mechsheet.recording.record import record_every_line
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
@@ -123,14 +123,14 @@ def test_of_an_array_that_takes_too_much_to_be_filled_the_list_is_told(fills: st
     assert ["a list that is appended to is not" in gap.reason for gap in recording.gaps] == [True] * told
 
 
-@pytest.mark.parametrize(("file", "looked"), [("own.py", 1), (choices.__file__, 0)], ids=["worksheet", "library"])
+@pytest.mark.parametrize(("file", "looked"), [("own.py", 1), (raised.__file__, 0)], ids=["worksheet", "library"])
 def test_errors_that_the_library_handles_are_no_ways_of_the_worksheet(file: str, looked: int) -> None:
     graph, names = Graph(), dict[str, Any]()
     exec(compile("def made(tried, x):\n    return tried(x)", file, "exec"), names)
     token = current.set(graph)
     try:
         x = 1 / Quantity(graph, graph.leaf("input", "a", 2.0))
-        assert names["made"](choices.tried, x) is x and len(graph.looked) == looked
+        assert names["made"](raised.tried, x) is x and len(graph.looked) == looked
     finally:
         current.reset(token)
 
