@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.units import Constant
-from mechsheet.worksheet import alone, source
+from mechsheet.worksheet import inputs, source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
@@ -66,17 +66,11 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
                 case ast.ClassDef(name):
-                    yield from (LeftOut(n, line, why) for line, why in _without_unit(node, names.get(name)))
-
-
-def _without_unit(node: ast.ClassDef, cls: Any) -> Iterator[tuple[int, str]]:
-    """Lines of a class of inputs whose number is hardly meant in the unit in which it is taken."""
-    for field in node.body:
-        match field:
-            case ast.AnnAssign(ast.Name(name)):
-                _, text, unit = getattr(cls, "__places__", {}).get(name, ("", "", ""))
-                if text and (why := alone.unlikely(text, unit)):
-                    yield field.lineno, f"{name} = {why}"
+                    told = {field: why for field, _, why in inputs.unlikely(names.get(name))}
+                    for each in node.body:
+                        match each:
+                            case ast.AnnAssign(ast.Name(field)) if field in told:
+                                yield LeftOut(n, each.lineno, told[field])
 
 
 def _unbracketed(cell: source.Cell, node: ast.stmt, names: Mapping[str, Any]) -> str:

@@ -9,6 +9,7 @@ import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
 from math import floor, log10
 from typing import Any, NamedTuple
 
@@ -190,7 +191,8 @@ def prove(
     Results over several positions are proved in their tables, and by themselves those of the ``fields``. ``done`` is
     called with how many of how many steps are behind.
     """
-    shown = [*_of_tables(recording, tables, lines), *_of_lines(recording, namespace, known, lines, fields)]
+    every = chain(_of_tables(recording, tables, lines), _of_lines(recording, namespace, known, lines, fields))
+    shown = [each for each in every if each.own.size]  # a table may have no rows
     digits = _Digits(recording)
     steps, count = itertools.count(1), 2 * len(shown) + len(recording.found)
 
@@ -230,8 +232,7 @@ def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str
     for table in tables:
         recorded = recording.tables.get(table.number, (None,) * len(table.columns))
         for n, (column, quantity) in enumerate(zip(table.columns, recorded, strict=True)):
-            given = (table.number, n) in recording.constants
-            if column.values.dtype.kind in "biuf" and column.values.size and not given:
+            if column.values.dtype.kind in "biuf" and (table.number, n) not in recording.constants:  # which is given
                 line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
                 node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
                 yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
@@ -246,7 +247,7 @@ def _of_lines(
 ) -> Iterator[_Shown]:
     for name, line in known.items():
         quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
-        if not (line.has_value and isinstance(quantity, Quantity) and own.dtype.kind in "biufc" and own.size):
+        if not line.has_value or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
             continue
         if name in fields or (quantity.single and own.size == 1):
             for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):

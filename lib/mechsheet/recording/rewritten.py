@@ -40,8 +40,7 @@ from mechsheet.recording.ways import (
     ends,
     is_of_the_whole,
     looking,
-    only_binds_or_ends,
-    only_binds_or_raises,
+    only_bind,
     returning,
     unbound_left,
 )
@@ -50,6 +49,7 @@ from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
 CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS
+_ENDS = ast.Break, ast.Continue
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
@@ -204,7 +204,7 @@ class _Rewriting(ast.NodeTransformer):
         if parts := set_parts(node):
             return [line for part in parts for line in self._put_where(node, *part)]
         ways = node.body, node.orelse
-        if not all(only_binds_or_raises(line) for way in ways for line in way):
+        if not all(only_bind(way, ast.Raise) for way in ways):
             self.generic_visit(node)
             return node
         then, otherwise = ({name for line in way for name in bound(line)} for way in ways)
@@ -233,20 +233,20 @@ class _Rewriting(ast.NodeTransformer):
         if ends and isinstance(node.target, ast.Tuple):
             row = f"recorded row {node.lineno}"
             parts = ast.copy_location(ast.Assign([node.target], ast.Name(row, ast.Load())), node)
-            if all(map(only_binds_or_ends, body := [parts, *node.body])):
+            if only_bind(body := [parts, *node.body], *_ENDS):
                 node.target, node.body = ast.Name(row, ast.Store()), body
         if not (ends and isinstance(node.target, ast.Name)):
             sums = None if ends or hasattr(node, "as_sums") else as_sums(node)
             node.as_sums = True  # type: ignore[attr-defined]  # it is looked at no more
             return [self.generic_visit(line) for line in sums or [node]]
-        if node.orelse and all(map(only_binds_or_ends, node.body)):
+        if node.orelse and only_bind(node.body, *_ENDS):
             left = [*looking(node, node.orelse), unbound_left(node)]
             return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
         return self._repeated(node, node.target.id, gone_through(node.iter), node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
         """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
-        if node.orelse or is_of_the_whole(items) or not all(map(only_binds_or_ends, body)):
+        if node.orelse or is_of_the_whole(items) or not only_bind(body, *_ENDS):
             self.generic_visit(node)
             return node
         names = sorted({name for line in body for name in bound(line)} | ({item} if item else set()))

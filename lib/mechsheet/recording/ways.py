@@ -1,46 +1,26 @@
 """Ways of statements: whether they only bind names or end, and loops that tell whether they were left."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from mechsheet.recording.forms import SCOPED
 
 
-def only_binds(line: ast.stmt) -> bool:
-    """Whether a statement does nothing but give names values."""
+def only_bind(lines: Iterable[ast.stmt], *others: type[ast.stmt]) -> bool:
+    """Whether statements do nothing but give names values, or are of some ``others``, such as the end of a turn."""
+    return all(_only_binds(line, others) for line in lines)
+
+
+def _only_binds(line: ast.stmt, others: tuple[type[ast.stmt], ...]) -> bool:
     match line:
         case ast.If(test, body, orelse):
-            return not any(map(is_of_the_whole, ast.walk(test))) and all(map(only_binds, [*body, *orelse]))
+            return not _has_of_the_whole(test) and only_bind([*body, *orelse], *others)
         case ast.Assign(targets, value):
             names = all(isinstance(p, ast.Name | ast.Tuple | ast.Store) for t in targets for p in ast.walk(t))
+            return names and not _has_of_the_whole(value)
         case ast.AugAssign(target, _, value) | ast.AnnAssign(target, _, ast.expr() as value):
-            names = isinstance(target, ast.Name)
-        case ast.Pass():
-            return True
-        case _:
-            return False
-    return names and not any(map(is_of_the_whole, ast.walk(value)))
-
-
-def only_binds_or_raises(line: ast.stmt) -> bool:
-    """Whether a statement does nothing but give names values or raise an error."""
-    match line:
-        case ast.If(test, body, orelse):
-            whole = any(map(is_of_the_whole, ast.walk(test)))
-            return not whole and all(map(only_binds_or_raises, [*body, *orelse]))
-        case ast.Raise():
-            return not any(map(is_of_the_whole, ast.walk(line)))
-    return only_binds(line)
-
-
-def only_binds_or_ends(line: ast.stmt) -> bool:
-    """Whether a statement of a loop's turn does nothing but give names values, or end the turn or the loop."""
-    match line:
-        case ast.If(test, body, orelse):
-            return not is_of_the_whole(test) and all(map(only_binds_or_ends, [*body, *orelse]))
-        case ast.Break() | ast.Continue():
-            return True
-    return only_binds(line)
+            return isinstance(target, ast.Name) and not _has_of_the_whole(value)
+    return isinstance(line, (ast.Pass, *others)) and not _has_of_the_whole(line)
 
 
 def unbound_left(node: ast.For) -> ast.stmt:
@@ -84,6 +64,10 @@ def is_of_the_whole(part: ast.AST) -> bool:
     return isinstance(part, (*SCOPED, ast.Global, ast.Nonlocal)) or (
         isinstance(part, ast.Name) and part.id in ("super", "locals", "__class__")
     )
+
+
+def _has_of_the_whole(part: ast.AST) -> bool:
+    return any(map(is_of_the_whole, ast.walk(part)))
 
 
 def ends(way: list[ast.stmt]) -> bool:

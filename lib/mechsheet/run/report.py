@@ -29,7 +29,7 @@ from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.arrangement import too_long
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import alone, index, inputs, mistakes, numbers, source
+from mechsheet.worksheet import index, inputs, mistakes, numbers, source
 from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Check, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError
@@ -187,9 +187,7 @@ def _left_out(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
     text = worksheet.read_text(encoding="utf-8").splitlines()
     for _, line, why in left_out(source.cells(namespace), namespace):
         yield why if line is None else f"{mistakes.at(worksheet, line, text[line - 1])}: {why}"
-    for name, (place, number, unit) in getattr(type(inputs_of(namespace)), "__places__", {}).items():
-        if number and (why := alone.unlikely(number, unit)):
-            yield f"{place}: {name} = {why}"
+    yield from (f"{place}: {why}" for _, place, why in inputs.unlikely(type(inputs_of(namespace))))
 
 
 def _not_followed(recording: Recording, values: Iterable[Any]) -> list[str]:

@@ -246,6 +246,13 @@ def _at_its_line(cls: Any, refusal: SheetError) -> SheetError:
     return SheetError(f"{place}: {refusal}{f'; {alone.taken(text, unit)}' if text else ''}", name)
 
 
+def unlikely(cls: Any) -> Iterator[tuple[str, str, str]]:
+    """Inputs of a class whose number is hardly meant in the unit in which it is taken: name, place and why."""
+    for name, (place, text, unit) in getattr(cls, "__places__", {}).items():
+        if text and (why := alone.unlikely(text, unit)):
+            yield name, place, f"{name} = {why}"
+
+
 def _refusals(g: Any, fields: Iterable[Input], given: Iterable[Input]) -> Iterator[SheetError]:
     """Why values cannot be used, of those that are given and those whose limits name them."""
     pairs = [(field, getattr(g, field.name)) for field in fields if type(field) is Input]
