@@ -163,6 +163,13 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
             stack += [operand for operand in node.operands if operand not in begun]
 
 
+def free_of(nodes: Iterable["Node"], made: Iterable["Node"]) -> bool:
+    """Whether nothing that is made rests on some nodes."""
+    own = set(nodes)
+    roots = [*made]
+    return own.isdisjoint(roots) and all(own.isdisjoint(node.operands) for node in bottom_up(roots, own))
+
+
 def steps_of(node: Node, parts: Callable[[Node], Iterable[Node]], known: Container[Node]) -> Iterator[Node]:
     """What a quantity is made of by its ``parts``, but for what is ``known``: each once, after its own parts."""
     seen, stack = set[Node](), [(node, iter(parts(node)))]

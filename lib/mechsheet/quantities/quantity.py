@@ -395,6 +395,9 @@ def is_any_length(value: Any) -> bool:
     return isinstance(value, Quantity) and value.graph.draws and value.ndim == 1 and value.re.stretches
 
 
+_LONGEST = np.iinfo(np.int64).max  # whole number of an array; those of Python have no end
+
+
 def lift(graph: Graph, value: Any) -> Quantity:
     """A number, an array or a list as a quantity of this recording."""
     if isinstance(value, Quantity):
@@ -405,7 +408,7 @@ def lift(graph: Graph, value: Any) -> Quantity:
         return stack([lift(graph, v) for v in value])
     if isinstance(value, Constant):
         return Quantity(graph, graph.constant(float(value), value.unit))
-    array = np.asarray(value)
+    array = np.asarray(float(value) if type(value) is int and abs(value) > _LONGEST else value)
     if array.dtype.kind == "c":
         return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))
     if array.dtype.kind not in "biuf":

@@ -240,14 +240,14 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
     elif isinstance(value, Quantity) and (short := _SHORT.fullmatch(spec)):
         digits, kind = short[1] or ".6", short[2]
         value, spec, end = (value * 100, f"{digits}f", kind) if kind == "%" else (value, digits + kind, "")
-    elif isinstance(value, Quantity) and not spec and _is_whole(value.re):
+    elif isinstance(value, Quantity) and not spec and is_whole(value.re):
         spec = "d"
     followed = _is_followed(value, spec)
     yield Number(value, spec) if followed and isinstance(value, Quantity) else value if followed else f"{value:{spec}}"
     yield end
 
 
-def _is_whole(node: Node) -> bool:
+def is_whole(node: Node) -> bool:
     """Whether Python has a whole number there, where it has one at all."""
     waiting, known, whole = [node], set[Node](), current.get().whole
     while waiting:

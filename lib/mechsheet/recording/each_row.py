@@ -9,14 +9,16 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.array_rules import SORTED
 from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.numpy_rules import as_many
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.ufunc_rules import finite
-from mechsheet.recording import choices, per_row
+from mechsheet.recording import choices, loops, per_row
 from mechsheet.recording.among import of_all
 from mechsheet.recording.by_size import decide
 from mechsheet.recording.choices import part_of, way_may_change
+from mechsheet.recording.loops import Turns
 from mechsheet.recording.per_row import Together, columns
 from mechsheet.recording.sifted import Sifted
 from mechsheet.worksheet.lists import Whole
@@ -51,6 +53,8 @@ def listed(f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
 
 def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
     """What ``f`` gives for each row in all, of a table or of those rows of one for which a condition holds."""
+    if kind in ("sum", "prod") and isinstance(sources[0], Turns) and not (sources[1:] or way_may_change(f)):
+        return loops.over_all(kind, f, sources[0])
     every = [_unselected(source) for source in sources]
     if any(holds is not None for _, holds in every):
         rows = None if way_may_change(f) else each_row(lambda *row: (True, f(*row)), *sources)
@@ -89,13 +93,13 @@ def numbered(source: Any, start: Any = 0) -> Any:
 
 
 def counted(*ends: Any) -> Any:
-    """Python's range; of so many as there are rows one by one."""
-    count, graph = ends[0], current.get()
-    if len(ends) == 1 and graph.draws and isinstance(count, Quantity) and count.re in graph.counts:
-        rows = Quantity(graph, graph.rows(count.re))
+    """Python's range; of so many numbers as the inputs say one by one."""
+    turns = loops.counted(*ends)
+    if current.get().draws and isinstance(turns, Turns):
+        rows = Quantity(current.get(), current.get().rows(as_many(turns.count).re))
         if is_any_length(rows):
-            return _all(per_row.Numbers(rows), rows)
-    return range(*ends)
+            return _all(per_row.Numbers(rows, turns.start, turns.step), rows)
+    return turns
 
 
 def placed(values: Any, value: Any) -> Any:
@@ -272,7 +276,7 @@ class EachRow(Sifted, Listed):
             return None
 
     def column(self) -> Quantity | None:
-        parts = self.parts.column + self.parts.start if isinstance(self.parts, per_row.Numbers) else self.parts
+        parts = self.parts.of(self.parts.column) if isinstance(self.parts, per_row.Numbers) else self.parts
         if not self.pairs or not isinstance(parts, Quantity):
             return None
         return parts if self.every else Selected(parts, self.holds)

@@ -112,8 +112,18 @@ def as_choice(node: ast.Match) -> ast.If | None:
     return ast.fix_missing_locations(ast.copy_location(choice, node)) if isinstance(choice, ast.If) else None
 
 
+def is_counted(items: ast.expr) -> bool:
+    """Whether a loop has so many turns as something says."""
+    match items:
+        case ast.Call(ast.Name("range"), [_, *_] as ends, []):
+            return not all(isinstance(end, ast.Constant) for end in ends)
+    return False
+
+
 def gone_through(items: ast.expr) -> ast.expr:
     """What a loop goes through, where it numbers or pairs other values as a list: any of its turns can be looked at."""
+    if is_counted(items) and isinstance(items, ast.Call):
+        return call("counted", items, *items.args)
     match items:
         case ast.Call(ast.Name("enumerate" | "zip") as function, parts, keywords):
             return ast.copy_location(ast.Call(call("all_of", items).func, [function, *parts], keywords), items)
@@ -271,7 +281,9 @@ def _sources(each: ast.comprehension) -> tuple[_Of, list[ast.expr], ast.expr, li
     return of_row, sources, ast.copy_location(through, each.iter), own
 
 
-_OF_ROWS = {"sum": "sum", "min": "min", "max": "max", "any": "any", "all": "all", "array": "array", "asarray": "array"}
+_OF_ROWS = {
+    **{kind: kind for kind in ("sum", "min", "max", "any", "all", "prod", "array")}, "asarray": "array", "fsum": "sum",
+}  # fmt: skip
 _PARTS = ast.Name, ast.Attribute, ast.BinOp, ast.UnaryOp, ast.Subscript, ast.Slice, ast.Constant, ast.Tuple
 _SIGNS = ast.operator, ast.unaryop, ast.expr_context
 
@@ -296,7 +308,9 @@ def rows_of(target: ast.expr, items: ast.expr) -> tuple[list[str], list[ast.expr
 def _is_plain(part: ast.AST) -> bool:
     """Whether a part of what rows are made of may be made twice, as the number of each."""
     match part:
-        case ast.Call(ast.Name("range" | "len"), [_], []):
+        case ast.Call(ast.Name("len"), [_], []) | ast.Call(ast.Name("range" | "arange" | "linspace"), [_, *_], []):
+            return True
+        case ast.Call(ast.Attribute(ast.Name("np" | "numpy"), "arange" | "linspace"), [_, *_], []):
             return True
     return isinstance(part, (*_PARTS, *_SIGNS))
 
@@ -305,7 +319,7 @@ def of_rows(node: ast.Call) -> ast.Call | None:
     """A call with a value for each row, as one with a function of a row, and the call itself; None of any other."""
     match node:
         case ast.Call(
-            ast.Name(name) | ast.Attribute(ast.Name("np" | "numpy"), name),
+            ast.Name(name) | ast.Attribute(ast.Name("np" | "numpy" | "math"), name),
             [ast.ListComp(value, [each]) | ast.GeneratorExp(value, [each]) as some],
             [],
         ) if name in _OF_ROWS and not each.ifs and not each.is_async and not hasattr(some, "of_rows"):

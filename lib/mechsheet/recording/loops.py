@@ -1,7 +1,7 @@
 """Loops that end by what they compute, for recorded quantities: readers repeat the turns for the inputs they have."""
 
 import operator
-from collections.abc import ItemsView, KeysView, Mapping, Sequence, Sized, ValuesView
+from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, Sized, ValuesView
 from functools import partial, reduce
 from itertools import repeat
 from types import FunctionType
@@ -12,8 +12,9 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import imaginary
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
-from mechsheet.quantities.node import Loop, Node
-from mechsheet.quantities.quantity import Quantity, lift, quantities
+from mechsheet.quantities.node import Loop, Node, free_of
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
+from mechsheet.quantities.written import is_whole
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
 
 
@@ -38,8 +39,53 @@ def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *sta
     return _iterated(turn, items, item, *state)
 
 
+class Turns:
+    """Python's range of so many numbers as the inputs say; who goes through them looks how many they are."""
+
+    def __init__(self, ends: tuple[Any, ...], start: Any, step: int, count: Quantity) -> None:
+        self.ends, self.start, self.step, self.count = ends, start, step, count
+
+    def of(self, number: Any) -> Any:
+        return number * self.step + self.start
+
+    def end(self, number: Any) -> Quantity:
+        """Whether a turn is the last one."""
+        ended: Quantity = self.count <= number + 1
+        return ended
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(range(*self.ends))
+
+    def __len__(self) -> int:
+        return len(range(*self.ends))
+
+    def __getitem__(self, key: Any) -> Any:
+        return range(*self.ends)[key]
+
+
+def counted(*ends: Any) -> Any:
+    """Python's range, for a loop."""
+    start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
+    distance = lift(current.get(), stop) - start if has_quantity([start, stop]) else None
+    if distance is None or not (distance.single and is_whole(distance.re) and type(step) is int and step):
+        return range(*ends)
+    return Turns(ends, start, step, distance if step == 1 else -(-distance // step))
+
+
+def over_all(kind: str, f: Callable[[Any], Any], turns: Turns) -> Any:
+    """The ``sum`` and the like of what a function gives for each number; there is one at least."""
+    put = _PUT[kind]
+    return _counted(lambda k, so_far: (False, k, put(so_far, f(k))), turns, 0, (UNBOUND, _NONE[kind]))[1]
+
+
+_PUT: dict[str, Callable[[Any, Any], Any]] = {"sum": operator.add, "prod": operator.mul}
+_NONE = {"sum": 0, "prod": 1}
+
+
 def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
     """The same. Where a quantity decides about the end, readers repeat the turns for the inputs that they have."""
+    if isinstance(items, Turns):
+        return _counted(turn, items, item or 0, state)
     begun: tuple[int, tuple[Any, ...], dict[Node, Guard]] | None = None
     for number, value in enumerate(repeat(None) if item is None else items):
         if item is not None:
@@ -62,6 +108,26 @@ def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> 
     if repeated is None and item is not None and isinstance(rest, list | tuple):
         repeated = _one_by_one(turn, rest, item, first, looked)
     return repeated or state
+
+
+def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any, ...]) -> Any:
+    """What a loop gives of which the inputs say how many turns it takes at most; nothing changes where that is none."""
+    graph, some = turns.count.graph, turns.count > 0
+    looked, state = dict(graph.looked), first
+    for number in range(int(turns.count.value)):
+        ends, *after = turn(*state[:item], turns.of(number), *state[item + 1 :])
+        state = tuple(after)
+        if ends | turns.end(number):
+            break
+    if state is first:
+        graph.see((~some).re)
+        return first
+    begin = (*first[:item], turns.of(0), *first[item + 1 :])
+    found = _repeated(turn, turns, item, begin, state, looked)
+    if found is None:
+        return state
+    given = [np.nan if x is UNBOUND else x for x in first]
+    return tuple(where(graph, some, x, lift(graph, y).like(x)) for x, y in zip(found, given, strict=True))
 
 
 def _one_by_one(
@@ -105,7 +171,7 @@ def _rows(rows: Any) -> Any:
 
 
 def _repeated(
-    turn: FunctionType,
+    turn: Callable[..., Any],
     items: Any,
     item: int | None,
     first: tuple[Any, ...],
@@ -130,11 +196,10 @@ def _repeated(
     *state, number = _whole(graph, nodes, like)
     now, graph.looked = graph.looked, {}
     try:
-        if item is not None:
-            state[item] = lift(graph, items)[number]
-        ends, *after = turn(*state)
+        ends, *after = _turned(turn, items, item, number, state)
         made = [lift(graph, x) for x in (*after, number + 1)]
-        followed = met and not graph.looked and is_condition(ends)
+        inside = graph.looked  # what Python sees of other things holds for all turns
+        followed = met and free_of(nodes, inside) and is_condition(ends)
     except (Exception, NotRecorded):
         followed = False
     finally:
@@ -143,8 +208,8 @@ def _repeated(
         return None
     if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
         return None
-    graph.looked = looked
-    most = None if item is None else len(items)
+    graph.looked = looked | inside
+    most = None if item is None or isinstance(items, Turns) else len(items)
     loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
     same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
     ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (same, end[:-1])
@@ -154,8 +219,18 @@ def _repeated(
     return tuple(_whole(graph, found, like[:-1]))
 
 
+def _turned(turn: Callable[..., Any], items: Any, item: int | None, number: Any, state: list[Quantity]) -> Any:
+    """One turn, of that number."""
+    if item is None:
+        return turn(*state)
+    if not isinstance(items, Turns):
+        return turn(*state[:item], lift(current.get(), items)[number], *state[item + 1 :])
+    ends, *after = turn(*state[:item], items.of(number), *state[item + 1 :])
+    return [ends | items.end(number), *after]
+
+
 def _in_turns(
-    turn: FunctionType, items: Any, item: int | None, begin: list[Quantity], most: int | None
+    turn: Callable[..., Any], items: Any, item: int | None, begin: list[Quantity], most: int | None
 ) -> tuple[Any, list[Quantity]] | None:
     """Whether a loop has ended after twice as many turns as it takes now and some more, and its state then.
 
@@ -166,19 +241,17 @@ def _in_turns(
     ended, number, count = lift(graph, False), 0, None
     try:
         while number not in (most, count):
-            if item is not None:
-                state[item] = where(graph, ended, state[item], lift(graph, items)[number])
-            ends, *after = turn(*state)
+            ends, *after = _turned(turn, items, item, number, state)
             state = [where(graph, ended, a, b) for a, b in zip(state, after, strict=True)]
             ended, number = ended | ends, number + 1
             if count is None and ended.value:
                 count = 2 * number + _FURTHER
-        looked = bool(graph.looked)
+        followed = graph.looked.keys() <= now.keys()
     except (Exception, NotRecorded):
-        looked = True
+        followed = False
     finally:
         graph.looked, graph.work = now, work
-    if looked:
+    if not followed:
         return None
     return (True if number == most else ended), state
 
@@ -208,4 +281,4 @@ def all_of(function: Any, *parts: Any, **named: Any) -> Any:
     return list(items) if function in (enumerate, zip) and all(isinstance(part, Sized) for part in parts) else items
 
 
-CALLS: dict[str, Any] = {"known": known, "iterated": iterated, "all_of": all_of}
+CALLS: dict[str, Any] = {"known": known, "iterated": iterated, "all_of": all_of, "counted": counted}

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice, whole
-from mechsheet.quantities.graph import current
+from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import has_quantity, lift
 
 _SAME = (
     "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
     "degrees", "radians", "floor", "ceil", "trunc", "copysign", "isnan", "isfinite", "isinf", "fmod", "cbrt",
-    "prod",
+    "exp2", "modf", "ldexp",
 )  # fmt: skip
 _OTHER = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "asinh": "arcsinh"}
 _OTHER |= {"acosh": "arccosh", "atanh": "arctanh", "fabs": "abs", "pow": "power", "fsum": "sum"}
@@ -26,7 +26,46 @@ STATISTICS: dict[str, tuple[Any, dict[str, int]]] = {
     "mean": (np.mean, {}), "fmean": (np.mean, {}), "median": (np.median, {}), "pstdev": (np.std, {}),
     "pvariance": (np.var, {}), "stdev": (np.std, {"ddof": 1}), "variance": (np.var, {"ddof": 1}),
 }  # fmt: skip
+_MOST = 170  # whose factorial is a float
 _DIVISIONS = 24  # of Euclid's algorithm: they end for any two numbers up to 75 024
+
+
+def _product(values: Any, *, start: Any = 1) -> Any:
+    return lift(current.get(), values).reduced("prod") * start
+
+
+def _remainder(x: Any, y: Any) -> Any:
+    graph = current.get()
+    x, y = lift(graph, x), lift(graph, y)
+    return x - y * np.rint(x / y)
+
+
+def _factorial(n: Any) -> Any:
+    """By a table of those that are floats; there is none of another number."""
+    graph = current.get()
+    n = lift(graph, n)
+    each = lift(graph, [float(math.factorial(k)) for k in range(_MOST + 1)])
+    return whole(each[choice(graph, (n >= 0) & (n <= _MOST), n, np.nan)])
+
+
+def _permutations(n: Any, k: Any = None) -> Any:
+    return _factorial(n) if k is None else _drawn(n, k, lambda rest: _factorial(rest))
+
+
+def _combinations(n: Any, k: Any) -> Any:
+    return _drawn(n, k, lambda rest: _factorial(k) * _factorial(rest))
+
+
+def _drawn(n: Any, k: Any, among: Callable[[Any], Any]) -> Any:
+    """``n`` factorial over what it is ``among``, of the rest that is not drawn; 0 where there are not so many."""
+    graph = current.get()
+    n = lift(graph, n)
+    known = n <= _MOST
+    if not known.value.all():
+        raise NotRecorded(f"of more than {_MOST} there are more ways than a float takes")
+    graph.see(known.reduced("all").re)
+    rest = n - k
+    return whole(choice(graph, rest < 0, 0, np.floor(_factorial(n) / among(np.maximum(rest, 0)) + 0.5)))
 
 
 def _hypot(*parts: Any) -> Any:
@@ -75,6 +114,9 @@ def _complex(f: Callable[..., Any]) -> Callable[..., Any]:
 
 
 MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
+MATH |= {math.isqrt: _whole(lambda x: np.floor(np.sqrt(x)))}
+MATH |= {math.prod: _product, math.remainder: _remainder, math.factorial: _factorial}
+MATH |= {math.perm: _permutations, math.comb: _combinations}
 MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
 MATH |= {math.gcd: _divisor, math.lcm: _multiple, cmath.phase: np.angle}
 MATH |= {cmath.rect: lambda r, phi: r * np.exp(1j * phi), cmath.polar: lambda z: (np.abs(z), np.angle(z))}

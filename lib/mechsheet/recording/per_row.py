@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.graph import NotRecorded, current
-from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.node import Node, bottom_up, free_of
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.selected import Selected
@@ -54,14 +54,16 @@ class Together:
 class Numbers:
     """The number of each row, of any one that Python knows a whole number of its own."""
 
-    def __init__(self, column: Quantity, start: int = 0) -> None:
-        self.column, self.start = column, start
+    def __init__(self, column: Quantity, start: Any = 0, step: int = 1) -> None:
+        self.column, self.start, self.step = column, start, step
+
+    def of(self, row: Any) -> Any:
+        return (row if self.step == 1 else row * self.step) + self.start
 
     def __getitem__(self, row: Any) -> Any:
-        if isinstance(row, int) and 0 <= row < self.column.extent[0]:
-            return row + self.start
-        number = self.column[row] + self.start
-        number.graph.whole.update(number.parts)
+        number = self.of(row if isinstance(row, int) and 0 <= row < self.column.extent[0] else self.column[row])
+        if isinstance(number, Quantity):
+            number.graph.whole.update(number.parts)
         return number
 
 
@@ -76,7 +78,7 @@ def _followed(f: Callable[..., Any], sources: tuple[Any, ...], made: Callable[..
         with graph.labelled({**graph.labels}):
             each = [_row(source, rows) for source in sources]
             values = f(*each)
-            if graph.looked.keys() == looked.keys():
+            if free_of(rows, graph.looked.keys() - looked.keys()):
                 return made(values, rows, [*zip(each, sources, strict=True)])
     except (Exception, NotRecorded):
         pass
@@ -146,7 +148,7 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
     if isinstance(source, Texts):  # whoever reads one is seen
         return Written((OneOf(_row(source.at, rows), source.texts, source.column, source.name),))
     if isinstance(source, Numbers):
-        return _row(source.column, rows) + source.start
+        return source.of(_row(source.column, rows))
     if isinstance(source, Together):
         return made_like(source.parts, [_row(part, rows) for part in source.parts])
     parts = [source.graph.state(part) for part in source.whole()[0].parts]

@@ -22,6 +22,7 @@ from mechsheet.recording.forms import (
     formatted,
     gone_through,
     index,
+    is_counted,
     keeps,
     later,
     left_for,
@@ -238,7 +239,8 @@ class _Rewriting(ast.NodeTransformer):
         if not (ends and isinstance(node.target, ast.Name)):
             sums = None if ends or hasattr(node, "as_sums") else as_sums(node)
             node.as_sums = True  # type: ignore[attr-defined]  # it is looked at no more
-            return [self.generic_visit(line) for line in sums or [node]]
+            if sums or not (isinstance(node.target, ast.Name) and is_counted(node.iter)):
+                return [self.generic_visit(line) for line in sums or [node]]
         if node.orelse and only_bind(node.body, *_ENDS):
             left = [*looking(node, node.orelse), unbound_left(node)]
             return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]

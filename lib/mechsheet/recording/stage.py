@@ -317,13 +317,14 @@ class Stage:
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
         numbers = int | float | complex | np.ndarray | np.generic
-        if isinstance(value, Written) and isinstance(own, numbers):
-            return False
-        if not (isinstance(value, Quantity | numbers) and isinstance(own, numbers)):
+        if not isinstance(own, numbers):
             return True
-        kept = np.asarray(own) + 0 if np.asarray(own).dtype.kind in "biufc" else np.asarray(own)
+        kept = np.asarray(own)
+        kept = kept + 0 if kept.dtype.kind in "biufc" else kept
         if kept.dtype.kind not in "iufc":
             return True
+        if not isinstance(value, Quantity) and np.asarray(value).dtype.kind not in "biufc":
+            return False  # as what a function has made that knows no quantity
         value = lift(self.graph, value)
         if kept.shape != value.extent:
             kept = solving.listed(self.graph, kept)
@@ -332,6 +333,8 @@ class Stage:
         try:
             a, b = np.broadcast_arrays(value.value + 0, kept)
         except ValueError:
+            return False
+        if a.shape != kept.shape:
             return False
         size = np.max(np.abs(b), initial=0.0, where=np.isfinite(b))
         with np.errstate(invalid="ignore"):  # of two infinite numbers

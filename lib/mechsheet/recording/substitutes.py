@@ -15,7 +15,7 @@ from copy import copy
 from functools import _lru_cache_wrapper, cache, lru_cache, partial
 from inspect import unwrap
 from io import StringIO
-from types import BuiltinFunctionType, FunctionType, GenericAlias, ModuleType
+from types import BuiltinFunctionType, FunctionType, GeneratorType, GenericAlias, ModuleType
 from typing import Any
 
 import numpy as np
@@ -43,7 +43,8 @@ from mechsheet.worksheet.marimo_on_use import Marimo
 _ASKING = check.__name__, find.__name__, system.__name__  # modules that hand on what they are given, to be shown
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
-_ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray)
+_GONE_THROUGH = (GeneratorType, map, filter)  # once, to whoever asks
+_ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray, np.fromiter)
 
 
 staged: ContextVar[Mapping[str, Any]] = ContextVar("staged")  # what those of `SHOWING` do in the cell that is run
@@ -91,7 +92,7 @@ def instead(value: Any) -> Any:
     if (refusing := instead_of_chance(value)) is not None:
         return refusing
     if isinstance(value, BuiltinFunctionType) and value in MATH:
-        return _takes(MATH[value])
+        return _takes(MATH[value], value)
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
     if value is np.vectorize:
@@ -285,16 +286,17 @@ BUILTINS = {
 
 
 @cache
-def _takes(f: Callable[..., Any]) -> Callable[..., Any]:
-    """Function of numpy that also takes lists of recorded quantities."""
+def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> Callable[..., Any]:
+    """Function of numpy that also takes lists of recorded quantities, and of plain numbers is another one."""
 
     def function(*args: Any, **kwargs: Any) -> Any:
+        args = tuple(list(a) if isinstance(a, _GONE_THROUGH) else a for a in args)
         if f is np.arange and not kwargs:
             return arange(current.get(), *args)
         if f is np.linspace and not kwargs.keys() - {"endpoint", "num"}:
             return linspace(current.get(), *args, **{"count" if k == "num" else k: v for k, v in kwargs.items()})
         if not has_quantity([*args, *kwargs.values()]):
-            return f(*args, **kwargs)
+            return (plainly or f)(*args, **kwargs)
         if f in _ARRAYS:
             return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
         if f in (np.zeros, np.ones, np.empty, np.full):

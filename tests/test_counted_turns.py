@@ -1,0 +1,141 @@
+"""Loops and sums over so many numbers as an input says: other inputs take more turns, fewer or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from in_browser import evaluated
+from openpyxl import load_workbook
+from own_worksheet import written
+from typed_workbook import typed
+
+from mechsheet.html import javascript
+from mechsheet.quantities.lines import Recording
+from mechsheet.readers.numbers import numbers
+from mechsheet.recording.record import record
+from mechsheet.run import report
+from mechsheet.worksheet import cells
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+SETUP = """
+import math
+from math import prod
+
+import numpy as np
+
+from mechsheet import ask, check, export, inputs, read, table, typeset
+"""
+GIVEN = """
+n: int = 5  # [-] how many; >= 0
+m: int = 2  # [-] from which; >= 0
+x: float = 0.7  # [-] argument; > 0
+"""
+FOLLOWED = [
+    "s = 0.0\nfor i in range(g.n):\n    s = s + g.x**i / (i + 1)\nNAME = s * g.x",
+    "s = 0.0\nfor i in range(g.m, g.n + 1):\n    s += g.x**i / (i + 1)\nNAME = s",
+    "s = 0.0\nfor i in range(0, 2 * g.n, 3):\n    s += g.x**i\nNAME = s",
+    "s = 0.0\nfor i in range(g.n, 0, -1):\n    s = (s + 1 / i) * g.x\nNAME = s",
+    "s = 0.0\nfor i in np.arange(1, g.m + 3):\n    s += g.x**i / i\nNAME = s * 1.0",
+    "s = 0.0\nfor t in np.linspace(0.0, g.x, g.m + 2):\n    s += np.sin(t)\nNAME = s",
+    "s, term = 0.0, 1.0\nfor i in range(1, g.n + 1):\n    term *= g.x / i\n    s += term\nNAME = s",
+    "p = 1.0\nfor i in range(g.m, g.n):\n    p *= g.x + 1 / (i + 1)\nNAME = p",
+    "a, b = 0.0, g.x\nfor _ in range(g.n):\n    a, b = b, a + b\nNAME = a",
+    "v, z = 0.0, 1.0\nfor i in range(g.n):\n    v += (9.81 - g.x * v * abs(v)) * 0.05\n    z -= v * 0.05\n"
+    "    if z < 0:\n        z, v = 0.0, -0.5 * v\nNAME = z + v",
+    "z = 1.0\nfor i in range(g.n):\n    z = (z + g.x / z) / 2\n"
+    "    if abs(z * z - g.x) < 1e-6:\n        break\nNAME = z",
+    "z = np.array([1.0, g.x])\nfor i in range(g.n):\n    z = np.array([z[1], z[0] * g.x + i])\nNAME = z[0] + z[1]",
+    "top = 0.0\nfor i in range(g.n + 1):\n    top = max(top, math.sin(i * g.x))\nNAME = top * 1.0",
+    "NAME = sum(g.x**q / q for q in range(1, g.n + 1)) * 1.0",
+    "NAME = np.sum([g.x**q / q for q in range(1, g.n + 1)]) * 1.0",
+    "NAME = math.prod(g.x + q for q in range(1, g.n + 1)) * 1.0",
+    "NAME = prod([g.x + q for q in range(g.n)]) * 1.0",
+    "NAME = math.fsum(g.x**q for q in range(g.m, g.n)) * 1.0",
+    "NAME = max(math.sin(q * g.x) for q in range(g.n + 1)) * 1.0",
+    "NAME = sum(g.x**q for q in range(1, int(g.n / 2) + 1)) * 1.0",
+    "NAME = sum(math.comb(g.n, q) * g.x**q for q in range(g.n + 1)) * 1.0",
+    "NAME = sum(g.x**q / math.factorial(q) for q in range(g.n + 1)) * 1.0",
+    "s = 0.0\nfor q in range(g.n + 1):\n    s += (-1) ** q * g.x ** (2 * q) / math.factorial(2 * q)\nNAME = s",
+    "NAME = math.factorial(g.n) * g.x + math.perm(g.n + 2, 2) + math.comb(g.n, g.m)",
+    "def series(x, count):\n    s = 0.0\n    for i in range(count):\n        s = s * x + 1\n    return s\n"
+    "NAME = series(g.x, g.n) + series(0.5, g.m)",
+]
+LISTS = "arange", "linspace", "[g.x", "max(math"  # of so many numbers, which a workbook has as many of as now
+OTHER: list[dict[str, Any]] = [
+    {}, {"n": 0}, {"n": 1}, {"n": 2, "x": 1.25}, {"n": 12}, {"n": 13, "m": 4, "x": 0.31}, {"n": 40}, {"n": 3, "m": 9},
+]  # fmt: skip
+
+
+def sheet_of(folder: Path, title: str = "") -> cells.Worksheet:
+    path = folder / "own.py"
+    lines = "\n".join(f"{each.replace('NAME', f'y_{k}')}  # [-] line" for k, each in enumerate(FOLLOWED))
+    for k in range(len(FOLLOWED)):
+        lines += f"\nz_{k} = np.array([y_{k}])  # [-] alone\ntable_{k} = table('{k}', 'Alone', z_{k})"
+    lines += "\ntypeset()"
+    path.write_text(written(SETUP, GIVEN, lines, title), encoding="utf-8")
+    return cells.load(path)
+
+
+def expected(sheet: cells.Worksheet, given: dict[str, Any]) -> list[float]:
+    names = [f"y_{k}" for k in range(len(FOLLOWED))]
+    found = sheet.run(names, {"g": sheet.inputs(**given)})
+    return [found[name] for name in names]
+
+
+def recorded(sheet: cells.Worksheet, **options: Any) -> Recording:
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record({**names, "__file__": sheet.path}, **options)
+    assert recording.gaps == []
+    return recording
+
+
+def test_a_page_takes_as_many_turns_as_its_inputs_say(blank: Page, tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path)
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    parts = {f"{k}": recording.values[f"y_{k}"].re for k in range(len(FOLLOWED))}
+    given = [{name: float(getattr(sheet.inputs(**each), name)) for name in ("n", "m", "x")} for each in OTHER]
+    script = javascript.module(recording, parts)
+    for each, found in zip(OTHER, evaluated(blank, script, given), strict=True):
+        for k, own in enumerate(expected(sheet, each)):
+            assert found["values"][f"{k}"] is not None, (FOLLOWED[k], each, found["gaps"].get(f"{k}"))
+            np.testing.assert_allclose(found["values"][f"{k}"], own, rtol=1e-12, err_msg=f"{FOLLOWED[k]} {each}")
+
+
+def test_cells_take_twice_as_many_turns_as_now_and_some_more(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """What takes more of them, or is a list of so many, has no number, and a check fails."""
+    sheet = sheet_of(tmp_path, "Own")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
+    rows = {row[0]: n for n, row in enumerate(load_workbook(path)["Inputs"].iter_rows(min_row=3, values_only=True), 3)}
+    paths = [
+        typed(path, {("Inputs", f"B{rows[name]}"): value for name, value in each.items()}, tmp_path / f"{n}.xlsx")
+        for n, each in enumerate(OTHER)
+    ]
+    for each, book in zip(OTHER, recalculated_all(paths), strict=True):
+        for k, own in enumerate(expected(sheet, each)):
+            shown = book[f"{k} Alone"]["A5"].value
+            if shown == "#N/A":
+                assert each["n"] > 13 or any(form in FOLLOWED[k] for form in LISTS), (FOLLOWED[k], each)
+            else:
+                np.testing.assert_allclose(shown, own, rtol=1e-11, err_msg=f"{FOLLOWED[k]} {each}")
+
+
+@pytest.mark.parametrize("bodies", [False, True])
+def test_every_reader_has_the_number_of_the_inputs_or_none(bodies: bool, tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path)
+    recording = recorded(sheet, whole=bodies)
+    for each in OTHER:
+        nodes = [recording.values[f"y_{k}"].re for k in range(len(FOLLOWED))]
+        given = {recording.inputs[name]: float(value) for name, value in each.items()}
+        found = numbers(nodes, given)
+        for k, own in enumerate(expected(sheet, each)):
+            assert np.isnan(found[nodes[k]]) or found[nodes[k]] == pytest.approx(own, rel=1e-12), (FOLLOWED[k], each)
