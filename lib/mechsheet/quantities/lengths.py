@@ -24,6 +24,10 @@ class Lengths(ABC):
         """A number or an array of numbers; in SI where a unit says what it measures."""
 
     @abstractmethod
+    def node(self, op: str, *args: Node) -> Node:
+        """An operation, element by element, on operands that are broadcast to each other."""
+
+    @abstractmethod
     def own_length(self, node: Node, axis: int) -> Node:
         """The length of a quantity along an axis that nothing else has."""
 
@@ -87,9 +91,12 @@ class Lengths(ABC):
         elif node.op == "take" and len(node.args[2]) == 1:
             source, _, (moved,) = node.args
             origin = moved.origin(axis, len(source.shape))
-            if origin and origin.whole:
+            if origin and origin.axis is not None and origin.left_out is not None:
                 known: Node = yield source, origin.axis
-                return known
+                if not origin.left_out or known in self.fixed:
+                    return known if not origin.left_out else None
+                left = self.node("sub", known, self.constant(origin.left_out))
+                return self.node("max", left, self.constant(0))
             if origin and (origin.axis is None or not (yield from self._any_stretches([source], origin.axis))):
                 return self.constant(node.shape[axis])
         found = set[Node]()

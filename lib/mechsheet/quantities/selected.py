@@ -24,8 +24,8 @@ _ELEMENTWISE: dict[Any, tuple[int, int]] = {  # which arguments are elements
 class Selected(Quantity):
     """Those elements ``of`` a list, or rows of a table, for which a condition ``holds``.
 
-    What they are as a whole, such as the greatest, and one of them by its number is followed. Anything else is of
-    those for which it holds now, and is no number where it holds for others.
+    What they are as a whole, such as the greatest, and one of them by its number is followed. Anything else is so too
+    where readers take any number of rows; else it is of those for which it holds now, and no number for others.
     """
 
     __slots__ = ("holds", "of")
@@ -36,8 +36,16 @@ class Selected(Quantity):
     def __getattr__(self, name: str) -> Any:
         if name not in ("re", "im"):
             return super().__getattr__(name)
+        if self.draws:
+            places = Quantity(self.graph, self.graph.rows(self.count(0).re))
+            return getattr(self.of[np.searchsorted(self._numbered(), places + 1)], name)
         held = self.of.rearranged(np.ndarray.__getitem__, self.holds.seen())
         return getattr(choice(self.graph, Quantity(self.graph, self.same), held, nan), name)
+
+    @property
+    def draws(self) -> bool:
+        """Whether it is of as many elements as it holds for, whatever these are."""
+        return self.graph.draws and len(self.of.extent) == 1
 
     @property
     def same(self) -> Node:

@@ -248,7 +248,7 @@ class Run(OfPositions):
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
             self.looked[name] = tuple(rests.values())
             self.hold(name, rests.values())
-            if isinstance(value := self.names.get(name), Selected) and name in self.lines:  # which shows those now
+            if isinstance(value := self.names.get(name), Selected) and name in self.lines and not value.draws:
                 self.note(Guard(value.same, graph.line))
         each = [
             {guard.holds: guard for name in sorted(self.read(names)) for guard in self.looked.get(name, ())}

@@ -1,0 +1,98 @@
+"""Arrays of those elements for which a condition holds: a page shows as many of them as its inputs say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from in_browser import evaluated
+from own_worksheet import written
+
+from mechsheet.html import javascript
+from mechsheet.quantities.quantity import Quantity
+from mechsheet.recording.record import record
+from mechsheet.worksheet import cells
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+SETUP = """
+import numpy as np
+
+from mechsheet import ask, inputs, read, table, typeset
+"""
+GIVEN = """
+n: int = 13  # [-] how many; > 1
+lim: float = 0.5  # [-] limit
+w: float = 1.0  # [-] rate
+k: int = 3  # [-] part
+"""
+ARRAYS = [
+    "F[F > g.lim]",
+    "t[F > g.lim]",
+    "F[F > g.lim] * 2 + 1",
+    "F[F > g.lim] - t[F > g.lim]",
+    "np.sort(F[F > g.lim])",
+    "F[F > g.lim][::-1]",
+    "F[F > g.lim].cumsum()",
+    "np.cumsum(F[np.abs(F) > g.lim] ** 2)",
+    "t[(F > g.lim) & (t > 1)]",
+    "t[np.flatnonzero(F > g.lim)]",
+    "t[np.nonzero(F > g.lim)[0]]",
+    "t[np.where(F > g.lim)[0]]",
+    "np.compress(F > g.lim, t)",
+    "np.extract(F > g.lim, F)",
+    "np.flatnonzero(F > g.lim) * 1.0",
+    "np.append(F[F > g.lim], g.w)",
+    "np.concatenate([[0.0], F[F > g.lim]])",
+    "np.concatenate([F[F > g.lim], F[F <= g.lim]])",
+    "np.where(F[F > g.lim] > 0.8, 1.0, F[F > g.lim])",
+    "np.interp(t[F > g.lim], [0.0, 6.0], [0.0, g.w])",
+    "np.maximum(F[F > g.lim], 0.7)",
+    "np.abs(Z[F > g.lim])",
+    "Z[F > g.lim].imag",
+    "F[~(F > g.lim)]",
+    "F[F > g.lim][F[F > g.lim] < 0.9]",
+    "np.array([v * g.w for v in F if v > g.lim])",
+    "np.array([v * u for v, u in zip(F, t) if v > g.lim])",
+    "t[1:][np.diff(np.sign(F)) != 0]",
+    "t[:-1][F[:-1] * F[1:] < 0]",
+    "F[F > g.lim][:2]",
+    "F[F > g.lim][1:]",
+    "np.diff(t[F > g.lim])",
+    "M[F > g.lim, 1]",
+    "M[F > g.lim][:, 0] * g.w",
+    "np.interp(g.lim, F[F > -2] * 0 + t[F > -2], F[F > -2])",
+    "F[F > g.lim] / F.max()",
+    "F[F > g.lim] - F[F > g.lim].sum()",
+    "np.outer(F[F > g.lim], [1.0, g.w])[:, 1]",
+    "F[np.isfinite(F / np.where(F > 0, 1.0, np.nan))]",
+    "np.array([v for v in F if v > g.lim])[::-1]",
+]
+GIVES: list[dict[str, Any]] = [
+    {}, {"lim": -0.3}, {"lim": 0.9, "w": 2.0}, {"n": 40}, {"n": 5, "w": 0.7}, {"lim": -2.0}, {"w": 3.1, "n": 61},
+    {"lim": 0.99}, {"lim": 2.0},
+]  # fmt: skip
+
+
+def test_as_many_are_shown_as_the_condition_holds_for(blank: Page, tmp_path: Path) -> None:
+    path = tmp_path / "own.py"
+    lines = "t = np.linspace(0, 6, g.n)  # [-] time\nF = np.cos(t * g.w)  # [-] force\nZ = F + 1j * t\n"
+    lines += "M = np.stack([F, t], axis=1)\n"
+    lines += "\n".join(f"y_{k} = {each}  # [-] line" for k, each in enumerate(ARRAYS))
+    path.write_text(written(SETUP, GIVEN, lines + '\ntable_1 = table("1", "All", F)\ntypeset()'), encoding="utf-8")
+    sheet = cells.load(path)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+    values = {str(k): recording.values.get(f"y_{k}") for k in range(len(ARRAYS))}
+    assert all(isinstance(value, Quantity) for value in values.values())
+    script = javascript.module(recording, {k: value.re for k, value in values.items() if isinstance(value, Quantity)})
+    given = [{name: float(getattr(sheet.inputs(**each), name)) for name in ("n", "lim", "w", "k")} for each in GIVES]
+    for each, found in zip(GIVES, evaluated(blank, script, given), strict=True):
+        own = sheet.run([f"y_{k}" for k in range(len(ARRAYS))], {"g": sheet.inputs(**each)})
+        for k, line in enumerate(ARRAYS):
+            number, expected = found["values"][str(k)], own[f"y_{k}"]
+            assert number is not None, (line, each, found["gaps"].get(str(k)))
+            assert np.shape(number) == np.shape(expected), (line, each)
+            np.testing.assert_allclose(number, expected, rtol=1e-12, atol=1e-13, err_msg=f"{line} {each}")
