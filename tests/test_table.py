@@ -9,9 +9,11 @@ from cells import run
 from openpyxl import load_workbook
 from own_worksheet import own, recorded
 
+from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.run import report
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.numbers import in_any_unit
 from mechsheet.worksheet.results import quantities
 from mechsheet.worksheet.table import Column, Table, figure, table
 
@@ -31,21 +33,17 @@ def names():
     return run("from mechsheet import figure, table", run(CELL))
 
 
-def test_a_figure_without_rows_is_refused(names):
-    names.update(S=names["S"][:0], R56=names["R56"][:0])
-    with pytest.raises(SheetError, match=r"^figure 1 has no rows$"):
-        run('f = figure("1", "T", S, abs(R56))', names)
-
-
 def test_a_table_has_no_rows_where_a_condition_holds_for_none(tmp_path):
-    """It has its heads on the page, in the workbook, which says so, and in the page in one file."""
-    lines = "x_w = x[x > 100.0]  # [-] those above\ntable_2 = table('2', 'Above', x_w)\ntypeset(table_2)"
+    """It has its heads on the page, in the workbook, which says so, and in the page in one file; a figure its axes."""
+    lines = "x_w = x[x > 100.0]  # [N] those above\ntable_2 = table('2', 'Above', x_w)\n"
+    lines += "figure_2 = figure('2', 'Above', x_w, x_w)\ntypeset(table_2, figure_2)"
     sheet = own(tmp_path, lines)
     names, _ = recorded(sheet)
     assert len(names["table_2"].frame()) == 0
     assert "<tbody></tbody>" in html(names["table_2"])
     data = report.workbook("", {**names, "__file__": sheet.path}, {})
     (cells,) = (each for each in load_workbook(BytesIO(data)) if "Above" in each.title)
+    assert in_any_unit(names["x_w"])("N", HTML) == "none"
     note = "No rows for the exported inputs; for others the cells tell none."
     assert [cells[at].value for at in ("A2", "A3", "A5")] == [note, "xw", None]
 

@@ -145,6 +145,7 @@ function isRounding(parts, terms, most) {
 function valueText(parts, factor, behind) {
   const arrays = parts.map(elements);
   const [re, im] = arrays, size = Math.max(...arrays.map(a => a.length));
+  if (!size) return "none";
   const at = (a, i) => a[a.length === 1 ? 0 : i];
   let most = 0;
   for (let i = 0; i < size; i++) {

@@ -124,8 +124,8 @@ def value(values: Any, unit: str, to: Notation) -> str:
     """SI value in its display unit; a point or a vector as a pair.
 
     A few numbers stand in full, a small matrix in rows; of more numbers the least .. the greatest, with how many there
-    are not, of more points the least .. the greatest x and y. Beside numbers that are 1e15 times as large, one of
-    their rounding is about 0.
+    are not, of more points the least .. the greatest x and y; of no numbers that there are none.
+    Beside numbers that are 1e15 times as large, one of their rounding is about 0.
     """
     return in_any_unit(values)(unit, to)
 
@@ -133,6 +133,8 @@ def value(values: Any, unit: str, to: Notation) -> str:
 def in_any_unit(values: Any) -> Callable[[str, Notation], str]:
     """What `value` says of the values in a unit and a notation; they are looked at once."""
     field = np.asarray(values)
+    if not field.size:
+        return lambda unit, to: "none"
     least = rounding(field)
     if _in_rows(field):
         rows = field.tolist()

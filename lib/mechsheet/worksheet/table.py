@@ -120,8 +120,6 @@ class Figure(Shown):
 
     def __post_init__(self) -> None:
         _some_columns(f"figure {self.number}", (self.x, *self.lines), 2)
-        if not len(self.x.values):
-            refuse(SheetError(f"figure {self.number} has no rows"))
 
     logarithmic: ClassVar[bool] = False  # both axes
 
