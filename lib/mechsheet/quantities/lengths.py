@@ -91,14 +91,16 @@ class Lengths(ABC):
         elif node.op == "take" and len(node.args[2]) == 1:
             source, _, (moved,) = node.args
             origin = moved.origin(axis, len(source.shape))
-            if origin and origin.axis is not None and origin.left_out is not None:
+            if origin and origin.whole:
                 known: Node = yield source, origin.axis
-                if not origin.left_out or known in self.fixed:
-                    return known if not origin.left_out else None
-                left = self.node("sub", known, self.constant(origin.left_out))
-                return self.node("max", left, self.constant(0))
+                return known
             if origin and (origin.axis is None or not (yield from self._any_stretches([source], origin.axis))):
                 return self.constant(node.shape[axis])
+            if origin and origin.left_out is not None:
+                known = yield source, origin.axis
+                if not origin.left_out:
+                    return known
+                return self.node("max", self.node("sub", known, self.constant(origin.left_out)), self.constant(0))
         found = set[Node]()
         for part, k in parts:
             if part.stretches:

@@ -381,15 +381,16 @@ def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
     start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
     if not has_quantity(ends) and not all(float(e).is_integer() for e in ends):
         return np.arange(*ends)
-    count = lift(graph, stop - start)
-    if count.dtype.kind == "f" or not (isinstance(step, int) and step == 1):
-        count = np.ceil(count / step)
-    return counted(graph, as_many(count)) * step + start
+    count = stop - start
+    if lift(graph, count).dtype.kind == "f" or not (isinstance(step, int) and step == 1):
+        count = np.maximum(np.ceil(count / step), 0)
+    return counted(graph, as_many(lift(graph, count))) * step + start
 
 
 def as_many(count: Quantity) -> Quantity:
-    """So many rows, none where there would be less: a length is never less."""
-    return count if count.re in count.graph.counts else lift(count.graph, np.maximum(count, 0))
+    """So many rows; where readers take any number of them, none where there would be less."""
+    any_number = count.graph.draws and count.re not in count.graph.counts
+    return lift(count.graph, np.maximum(count, 0)) if any_number else count
 
 
 def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: bool = True) -> Any:
