@@ -237,6 +237,16 @@ def test_a_list_of_one_element_keeps_its_axis_in_sweeps(section: Path) -> None:
     assert both["share"].shape == (2, 3, 1) and (both["share"] == 1).all()
 
 
+def test_a_list_of_one_element_is_written_and_read_as_a_longer_one(
+    section: Path, tmp_path: Path, recalculated: Callable[[Path], Any]
+) -> None:
+    """Its line is that of the input itself: its one number stands there in place of a column."""
+    assert script(section, "--F=30", "--proof", f"--out={tmp_path}").returncode == 0
+    book = recalculated(tmp_path / "section.xlsx")
+    lines = [row for sheet in book.worksheets for row in sheet.values if row[0] == "F" and row[3] == "force"]
+    assert [row[1] for row in lines] == [30e3]
+
+
 def test_rows_of_a_table_are_gone_through(section: Path) -> None:
     rows = load(section).inputs(F=np.array([1.0])).stringers
     assert len(rows) == 2 and [row.y for row in rows] == rows.y.tolist() == [0.25, -0.25]

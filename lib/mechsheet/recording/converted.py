@@ -87,4 +87,4 @@ def _source(reader: Reader, node: Node, line: Formula | None, deep: int) -> Sour
 
 def _literal(node: Node) -> float:
     """A number without a unit; 0 for anything else."""
-    return float(node.value) if node.op == "constant" and not node.args and node.size == 1 else 0.0
+    return float(node.value.item()) if node.op == "constant" and not node.args and node.size == 1 else 0.0

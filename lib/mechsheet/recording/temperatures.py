@@ -79,4 +79,4 @@ def _is_given(node: Node) -> bool:
 def _plain(node: Node) -> float | None:
     """The number of a literal or of a length."""
     pure = (node.op == "constant" and not node.args) or node.op == "length"
-    return float(node.value) if pure and node.size == 1 and node.value else None
+    return float(node.value.item()) if pure and node.size == 1 and node.value else None

@@ -56,7 +56,7 @@ def _elsewhere(line: Line, formulas: SheetFormulas) -> Sequence[Content]:
     if line.node.size != 1:
         none = formulas.as_exported("no values", "not followed")
         return (f"column {letters(place.column)} of {place.sheet}" if place else none,)
-    return computed([formulas.reference(line.node)] if place else None, [float(line.node.value) + 0.0])  # no -0
+    return computed([formulas.reference(line.node)] if place else None, [line.node.value.item() + 0.0])  # no -0
 
 
 def _told(line: Line) -> tuple[str, str, str]:
