@@ -85,6 +85,18 @@ def test_corners_and_kernels(f: Any, at: list[float], ahead: list[float], behind
         np.testing.assert_allclose(np.ravel(side), wanted, rtol=4e-16)
 
 
+@pytest.mark.parametrize("f", [np.argmax, np.argmin, np.max])
+def test_of_what_is_no_number_nothing_is_the_greatest(f: Any) -> None:
+    graph = Graph()
+    token = current.set(graph)
+    try:
+        x = Quantity(graph, graph.leaf("input", "x", 2.5))
+        y = f(np.array([nan, nan]) * x) * 1.0
+        assert np.isnan(slopes([y.re], [x.re])[y.re].both).all() and np.isnan(gradient(y.re, 0, [x.re]).both).all()
+    finally:
+        current.reset(token)
+
+
 @pytest.mark.parametrize(
     ("f", "slope"),
     [
