@@ -93,6 +93,14 @@ def test_what_a_design_does_not_rest_on_may_have_no_value(tmp_path, recwarn):
     assert chosen["F"] == pytest.approx(2.0, abs=1e-6) and not list(recwarn)
 
 
+def test_designs_on_the_way_warn_and_print_of_nothing(tmp_path, capsys):
+    """Of numpy's mean of nothing too, which is no error of a floating-point number."""
+    lines = LINES + "\nm = np.nanmax(np.where(x < g.F - 1, x, np.nan))  # [-] of none at F = 0.5\nprint('of a line')"
+    sheet = own(tmp_path, lines)
+    chosen, _ = asked_design.best(asked(sheet, "--vary=F=0..5", "--best=max m"))
+    assert chosen["F"] == pytest.approx(5.0, abs=1e-4) and not capsys.readouterr().out
+
+
 def test_a_design_is_looked_for_from_where_the_present_one_has_no_value(tmp_path):
     """What would it take that it closes is what is asked most."""
     sheet = own(tmp_path, "v = 1e3 * np.sqrt(3 - g.F)  # [N] ends at F = 3")

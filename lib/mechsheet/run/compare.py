@@ -24,7 +24,7 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.run import arguments
 from mechsheet.run.ending import say, watch
-from mechsheet.run.within import silently
+from mechsheet.run.silent import silently
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, load

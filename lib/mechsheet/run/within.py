@@ -1,11 +1,8 @@
 """Cases within the tolerances of a worksheet's inputs, in each of which its lines may go another way."""
 
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from functools import partial
-from io import StringIO
 from itertools import product
 from typing import Any
 
@@ -20,6 +17,7 @@ from mechsheet.readers.cases import RESULTS, Cases, Key
 from mechsheet.readers.plan import NotPlanned
 from mechsheet.run.many_cases import Told, Way, way
 from mechsheet.run.progress import progress
+from mechsheet.run.silent import silently
 from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
@@ -147,14 +145,6 @@ class _Runs:
             self.spans[key] = (np.fmin(span[0], low), np.fmax(span[1], high)) if span is not None and same else None
         for name, holds in told.holds.items():
             self.holds.setdefault(name, np.full(self.count, np.nan))[which] = holds
-
-
-@contextmanager
-def silently() -> Iterator[None]:
-    """What lines print, and warn of, the worksheet's own run has told."""
-    with warnings.catch_warnings(), redirect_stdout(StringIO()):
-        warnings.simplefilter("ignore")
-        yield
 
 
 def _ends(count: int) -> Values:

@@ -17,8 +17,8 @@ from mechsheet.readers.bends import bends
 from mechsheet.readers.slopes import slopes
 from mechsheet.recording.record import record
 from mechsheet.run.banding import part_of
+from mechsheet.run.silent import silently
 from mechsheet.studies.optimum import At, conditions
-from mechsheet.studies.sensitivity import quiet
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet.cells import base, load
 from mechsheet.worksheet.errors import SheetError
@@ -145,8 +145,9 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     """
     sheet, asked = load(Path(problem.worksheet)), problem.asked
     g: Any = declarations.build(sheet.inputs, {**asked.scene.inputs, **design})
-    only = replace(quiet(sheet), cells=tuple(sheet.needed([base(name) for name in asked.results], ["g"])))
-    recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
+    only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in asked.results], ["g"])))
+    with silently():
+        recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
     nodes = {name: node for name in asked.results if (node := part_of(name, recording.values))}
     if missing := [name for name in asked.results if name not in nodes]:
         raise SheetError(f"{missing[0]} is not recorded")

@@ -15,10 +15,11 @@ from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import Slope, seen, slopes, solved_under, unfollowed
 from mechsheet.recording.record import record
 from mechsheet.run.banding import part_of
+from mechsheet.run.silent import silently
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
-from mechsheet.worksheet.cells import Worksheet, base, load, value
+from mechsheet.worksheet.cells import base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
@@ -269,8 +270,9 @@ def _of_recording(
     """Slopes of results in SI with estimates of their errors, and of the others what of them is not recorded."""
     sheet = load(worksheet)
     g: Any = declarations.build(sheet.inputs, given)
-    only = replace(quiet(sheet), cells=tuple(sheet.needed([base(name) for name in names], ["g"])))
-    recording = record(only.run(only.results, {"g": g}), only, whole=True)
+    only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in names], ["g"])))
+    with silently():
+        recording = record(only.run(only.results, {"g": g}), only, whole=True)
     inputs = [recording.inputs[x] for x in by]
     nodes = {name: part_of(name, recording.values) for name in names}
     lacking = {name: unfollowed([node], inputs) for name, node in nodes.items() if node}
@@ -327,11 +329,6 @@ def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, 
         before = row
     flat = np.all(quotients == 0, axis=1)  # no influence at all: no error either
     return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
-
-
-def quiet(sheet: Worksheet) -> Worksheet:
-    """A worksheet without numpy's warnings: what has no value is told by who asks for it."""
-    return replace(sheet, errors={kind: "ignore" if how == "warn" else how for kind, how in sheet.errors.items()})
 
 
 def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:

@@ -9,6 +9,7 @@ it does not know, one after the other.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,9 +19,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
 from mechsheet.run.progress import on_terminal
+from mechsheet.run.silent import silently
 from mechsheet.studies.chunks import Job, Part, alike, computed, digest, one_by_one, same_shape, varied
 from mechsheet.worksheet import inputs
-from mechsheet.worksheet.cells import asked, load, split
+from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
 from mechsheet.worksheet.table import heading
 
@@ -186,6 +188,18 @@ def sweep(
     if not (executor is None or callable(executor) or hasattr(executor, "submit")):
         raise SheetError(f"executor = {as_given(executor)} must be an executor, or a function that makes one")
     sheet.needed(want, ["g"])
+    with silently() if executor is None else nullcontext():  # a variant without a value is told as one, once
+        return _swept(sheet, want, variants, chunk, executor)
+
+
+def _swept(
+    sheet: Worksheet,
+    want: tuple[str, ...],
+    variants: "Mapping[str, ArrayLike] | pd.DataFrame",
+    chunk: int,
+    executor: Executor | Callable[[], Executor] | None,
+) -> Sweep:
+    """`sweep` of what can be swept."""
     given = inputs.variants(sheet.inputs, {str(name): values for name, values in variants.items()})
     rows = np.flatnonzero(given.reasons == "")
     job = Job(sheet.path, digest(sheet.path), want, at_once=True)
