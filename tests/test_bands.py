@@ -228,6 +228,35 @@ def test_what_only_goes_on_in_another_way_keeps_its_band(text, tmp_path):
     assert np.allclose(next(b for b in found.banded if b.name == "k").worst, 1.0)
 
 
+@pytest.mark.parametrize(
+    ("text", "worst"),
+    [("np.interp(g.F, [0.0, 2.5, 9.0], [0.0, 5.0, 31.0])", 4.0), ("g.F if g.F < 2.6 else 2.6 + 1.01 * (g.F - 2.6)", 1)],
+)
+def test_what_goes_on_in_another_way_right_there_keeps_its_band_too(text, worst, tmp_path):
+    """At an abscissa of a table by the steeper side; a normal one gets farther off than its tolerance, as few do."""
+    for distribution in ("", " normal"):
+        found, _ = bands(off(tmp_path, 9, f"± 1{distribution}", "", f"\nk = {text}  # [-] bends"))
+        assert np.allclose(next(b for b in found.banded if b.name == "k").worst, worst)
+
+
+def test_what_bends_where_a_line_goes_another_way_is_not_said_to_jump(tmp_path, capsys):
+    more = "\nk = 1 / (g.F if g.F < 2.6 else 2.6 + 1.01 * (g.F - 2.6))  # [-] bends"
+    sheet = off(tmp_path, 9, "± 0.5", "", more)
+    found, _ = bands(sheet)
+    assert "it jumps or bends: " in next(b for b in found.banded if b.name == "k").cells()[-1]
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=k"], declared(sheet.inputs)))
+    assert "k: no slopes, it jumps or bends (" in capsys.readouterr().out
+
+
+def test_random_cases_without_a_value_leave_those_that_have_one(tmp_path, capsys):
+    more = "\nk = next(size for size in (1.0, 2.0, 3.0) if size >= g.F) * g.a  # [-] size\ns = g.F + g.a  # [-] sum"
+    sheet = off(tmp_path, 9, "± 1", "± 0.5", more)
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=k,s"], declared(sheet.inputs)))
+    out = capsys.readouterr().out
+    low, high = (float(end) for end in re.search(r"^2\.25 .* (\S+)\.\.(\S+)$", out, re.MULTILINE).groups())
+    assert "nan" not in out and 0.5 <= low < 0.55 and 3.7 < high <= 3.75
+
+
 TOLD = """
 t = np.sqrt(np.array([g.F - 2.0, g.F]))  # [-] none for some
 word = "few" if g.F < 3 else "many"

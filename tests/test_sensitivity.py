@@ -164,6 +164,21 @@ def test_what_is_not_recorded_is_differentiated_by_differences_and_says_so(tmp_p
     assert "slope is 1 ahead and -1 behind" in found.reasons["F"] and found.reasons["a"] == ""
 
 
+KNOTS = """
+from scipy.interpolate import CubicSpline
+t = np.interp(g.F, [0.0, 2.5, 9.0], [0.0, 5.0, 31.0])  # [-] at an abscissa of a table
+f = CubicSpline([0.0, 1.0, 2.5, 4.0, 9.0], [0.0, 1.0, 6.25, 16.0, 81.0])(g.F)  # [-] smooth at a knot
+j = np.searchsorted([1.0, 2.5, 4.0], g.F) * g.a  # [-] jumps"""
+
+
+def test_at_an_abscissa_of_a_table_there_is_a_slope_on_either_side(tmp_path):
+    found = sensitivity(own(tmp_path, KNOTS).path, ["t"])
+    assert found.reasons["F"] == "t has a corner there: in SI its slope is 4 ahead and 2 behind"
+    found = sensitivity(own(tmp_path, KNOTS).path, ["f", "j"])
+    assert found.slopes["f"].tolist() == pytest.approx([5.0, 0.0], rel=1e-9)
+    assert np.isnan(found.slopes["j"][0]) and found.reasons["F"] == "j jumps there, or ends"
+
+
 def test_corners_bound_the_corners_and_hold_the_nominal():
     given = {"L3": 0.001, "phi_BD": 0.5}
     bands = tolerance(HITCH, ["GS6", "L4"], given)

@@ -11,7 +11,7 @@ from mechsheet.quantities.node import LEAVES, Node
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.bands import BENDS, Band, Bands, Tolerance
-from mechsheet.readers.cases import RESULTS, Cases
+from mechsheet.readers.cases import JUMPS, RESULTS, Cases, goes_on
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
@@ -53,8 +53,11 @@ class Banded:
 
     def told_by(self, cases: Cases, what: str, why: str = "") -> "Banded":
         """The same with what cases tell in place of a band that they are outside of: ``what`` it does, and why."""
-        if not (outside := cases.outside((self.where, self.name), self.values, self.worst, self.unit)):
+        key = self.where, self.name
+        if not (outside := cases.outside(key, self.values, self.worst, self.unit)):
             return self
+        span = cases.spans.get(key)
+        what = what or (goes_on(self.values, *span, self.worst) if span else JUMPS)
         return self.without(f"{what}: {outside}{why}")
 
     def without(self, why: str) -> "Banded":
@@ -135,7 +138,7 @@ def run_bands(
     jumping = bands.jumps(node for nodes in seen for node in nodes)
     for k, nodes in enumerate(seen):
         if jump := next((jumping[node] for node in nodes if node in jumping), None):
-            banded[k] = banded[k].told_by(bands.cases, "it jumps", f" ({bands.turns(jump)})")
+            banded[k] = banded[k].told_by(bands.cases, "", f" ({bands.turns(jump)})")
     bands.look(node for nodes in seen for node in nodes)
     for k, (node, *guards) in enumerate(seen):
         if not banded[k].band.why and (how := bands.misled(node, guards)):

@@ -16,6 +16,7 @@ from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import Values
+from mechsheet.readers.beside import beside
 from mechsheet.readers.cases import Cases, in_cases
 from mechsheet.readers.jumps import Jump, jumps
 from mechsheet.readers.numbers import numbers as recomputed
@@ -129,7 +130,7 @@ class Bands:
         nodes = list(dict.fromkeys(nodes))
         new = [node for node in nodes if node not in self.known]
         lacking = {node: unfollowed([node], self.inputs) for node in new} if unfollowed(new, self.inputs) else {}
-        moved = slopes([node for node in new if not lacking.get(node)], self.inputs)
+        moved = beside(slopes([node for node in new if not lacking.get(node)], self.inputs), self.inputs)
         for node in new:
             lost = lacking.get(node)
             self.known[node] = (

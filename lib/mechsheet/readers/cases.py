@@ -10,8 +10,10 @@ from mechsheet.quantities.operations import Values
 from mechsheet.worksheet import numbers
 
 RESULTS = "results"  # where lines stand
+JUMPS = "it jumps"
 Key = tuple[str, str]  # where numbers are shown, and their name
 _AS_SHOWN = 1.05  # times a deviation: it is shown with two digits
+_BENT = 1.5  # times one: what gets no farther off may but bend
 _SURE = 0.999  # a greater part of the cases is more than they can tell
 _ROUNDING = 1e-9  # of the greatest number
 
@@ -20,10 +22,10 @@ _ROUNDING = 1e-9  # of the greatest number
 class Cases:
     """Runs of a worksheet within its tolerances: at their ends, and behind these the ``count`` random ones.
 
-    ``spans`` are the least and the greatest numbers, in display units, by where they are shown and their name, None of
-    what has other rows in some case; ``holds`` is whether each check does in each case. In the ``lost`` ones the
-    worksheet gives no numbers, in the first of them for the ``reason``. What recordings of cases do not tell of others,
-    a check at some of its positions, ``alone`` tells by running each.
+    ``spans`` are the least and the greatest numbers of the cases that are within all tolerances, in display units, by
+    where they are shown and their name, None of what has other rows in some case; ``holds`` is whether each check does
+    in each case. In the ``lost`` ones the worksheet gives no numbers, in the first of them for the ``reason``. What
+    recordings of cases do not tell of others, a check at some of its positions, ``alone`` tells by running each.
     """
 
     count: int
@@ -72,6 +74,11 @@ def is_outside(values: Values, least: Values, greatest: Values, worst: Values) -
     known = np.isfinite(own)
     within = _AS_SHOWN * np.reshape(worst, -1) + _ROUNDING * np.max(np.abs(own), initial=0.0, where=known)
     return bool(np.any(known & ~((high - own <= within) & (own - low <= within))))
+
+
+def goes_on(values: Values, least: Values, greatest: Values, worst: Values) -> str:
+    """What numbers that are outside do where a line goes another way, as far as slopes tell."""
+    return JUMPS if is_outside(values, least, greatest, _BENT * worst) else f"{JUMPS} or bends"
 
 
 def in_cases(share: float, passed: bool) -> str:

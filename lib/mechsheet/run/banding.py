@@ -13,7 +13,7 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.banded import Banded, RunBands, about, off, run_bands
 from mechsheet.readers.bands import Band, Bands, Tolerance, tolerances
-from mechsheet.readers.cases import is_outside
+from mechsheet.readers.cases import RESULTS, goes_on, is_outside
 from mechsheet.recording.record import record
 from mechsheet.run.within import cases
 from mechsheet.worksheet import numbers, shown
@@ -82,10 +82,14 @@ def lines(
         jumping = bands.jumps(nodes.values())
         for name, node in nodes.items():
             band, factor = found[node], units.parse(known[base(name)].unit).factor
-            ends, worst = (sampled[name][name].least, sampled[name][name].greatest), band.worst / factor
-            if node in jumping and is_outside(node.value / factor, *ends, worst):
-                band = band.none(f"it jumps ({bands.turns(jumping[node])})")
-            yield from _in_all_ways(name, node, known[base(name)], band, sampled[name], bounds[node], by)
+            ends = sampled[name][name].least, sampled[name][name].greatest
+            if node in jumping or sampled[name].lost:
+                inside = bands.cases.spans.get((RESULTS, name)) or ends
+                ends = inside if sampled[name].lost else ends  # between what those lie that have a value
+                judged = node.value / factor, *inside, band.worst / factor
+                if node in jumping and is_outside(*judged):
+                    band = band.none(f"{goes_on(*judged)} ({bands.turns(jumping[node])})")
+            yield from _in_all_ways(name, node, known[base(name)], band, sampled[name], ends, bounds[node], by)
     for table in (value for name in given.want if isinstance(value := namespace.get(name), Table)):
         yield from _of_table(table, run_bands(recording, [table], (), {}, by, run).banded)
     for check in _own(checks, namespace):
@@ -126,6 +130,7 @@ def _in_all_ways(
     line: Formula,
     band: Band,
     sampled: Any,
+    ends: tuple[Any, Any],
     bounds: tuple[Any, Any],
     by: Mapping[str, Tolerance],
 ) -> Iterator[str]:
@@ -135,7 +140,7 @@ def _in_all_ways(
     if band.why:
         yield f"{name}: no slopes, {band.why}"
     worst, squares, deviation = (x.reshape(-1) / factor for x in (band.worst, band.squares, band.deviation))
-    drawn = [np.reshape(x, -1) for x in (sampled[name].least, sampled[name].greatest, sampled[name].deviation)]
+    least, greatest, drawn = (np.reshape(x, -1) for x in (*ends, sampled[name].deviation))
     low, high = (x.reshape(-1) / factor for x in bounds)
     beyond = np.maximum(high - values, values - low)
     narrow = np.where(worst > 0, beyond <= _WIDE * worst, np.isfinite(beyond))
@@ -145,12 +150,12 @@ def _in_all_ways(
     for k, value in enumerate(values):
         row = [numbers.significant(value, 6), *(about(x[k]) for x in (worst, squares))]
         bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
-        rows.append([*row, _ends(drawn[0][k], drawn[1][k]), *[bound] * any_narrow])
+        rows.append([*row, _ends(least[k], greatest[k]), *[bound] * any_narrow])
     yield from numbers.aligned(rows)
     if sampled.lost:
         yield f"{sampled.lost} of {_CASES} random cases have no value: {sampled.reason}"
     elif not band.why:
-        apart = np.max(np.abs(drawn[2] - deviation), initial=0.0) / (np.max(deviation, initial=0.0) or 1.0)
+        apart = np.max(np.abs(drawn - deviation), initial=0.0) / (np.max(deviation, initial=0.0) or 1.0)
         yield (
             f"standard deviation of the random cases and by the slopes differ by {numbers.significant(100 * apart, 2)}"
             f" % of the greatest, by chance about {numbers.significant(100 / np.sqrt(2 * _CASES), 2)} %"
@@ -188,4 +193,6 @@ def _mattering(line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterat
 
 
 def _ends(low: float, high: float) -> str:
+    if np.isnan(low):
+        return numbers.CELL.none
     return numbers.span(numbers.significant(float(end), 6) for end in (low, high))

@@ -46,7 +46,7 @@ def cases(
     """
     every = np.concatenate([_ends(len(by)), _drawn([*by.values()])])
     at = {name: t.value + part * t.size for (name, t), part in zip(by.items(), every.T, strict=True)}
-    runs = _Runs(g, sheet, want, known, at)
+    runs = _Runs(g, sheet, want, known, at, np.all(np.abs(every) <= 1, axis=1))
     left = np.arange(len(every))[::-1]  # the random ones first, which go the most usual ways
     with progress(len(every), "cases within the tolerances") as done, silently():
         while left.size:
@@ -67,7 +67,10 @@ def cases(
 
 
 class _Runs:
-    """What cases tell, of which ``at`` has the inputs that differ in SI: one alone, or many at once."""
+    """What cases tell, of which ``at`` has the inputs that differ in SI: one alone, or many at once.
+
+    Those that are not ``inside`` are farther off than a tolerance, as few of a normal one are: no span tells of these.
+    """
 
     def __init__(
         self,
@@ -76,8 +79,9 @@ class _Runs:
         want: Sequence[str],
         known: Mapping[str, Formula],
         at: Mapping[str, Values],
+        inside: Values,
     ) -> None:
-        self.g, self.sheet, self.want, self.known, self.at = g, sheet, want, known, at
+        self.g, self.sheet, self.want, self.known, self.at, self.inside = g, sheet, want, known, at, inside
         self.count = len(next(iter(at.values())))
         self.spans, self.holds = dict[Key, tuple[Values, Values] | None](), dict[str, Values]()
         self.lost, self.recorded = dict[int, str](), False
@@ -138,8 +142,9 @@ class _Runs:
         return Told({key: x[None] for key, x in numbers}, holds)
 
     def _add(self, told: Told, which: Values) -> None:
-        for key, x in told.numbers.items():
-            low, high = np.fmin.reduce(x), np.fmax.reduce(x)
+        inside = self.inside[which]
+        for key, x in told.numbers.items() if inside.any() else ():
+            low, high = np.fmin.reduce(x[inside]), np.fmax.reduce(x[inside])
             span = self.spans.setdefault(key, (low, high))
             same = span is not None and span[0].shape == low.shape
             self.spans[key] = (np.fmin(span[0], low), np.fmax(span[1], high)) if span is not None and same else None

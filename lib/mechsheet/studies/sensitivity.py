@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.document.chart import COLOURS
 from mechsheet.readers.bands import untold
+from mechsheet.readers.beside import beside
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import Slope, seen, slopes, solved_under, unfollowed
 from mechsheet.recording.record import record
@@ -276,7 +277,7 @@ def _of_recording(
     inputs = [recording.inputs[x] for x in by]
     nodes = {name: part_of(name, recording.values) for name in names}
     lacking = {name: unfollowed([node], inputs) for name, node in nodes.items() if node}
-    here = slopes([node for node in nodes.values() if node], inputs)
+    here = beside(slopes([node for node in nodes.values() if node], inputs), inputs)
     for name, node in nodes.items():
         if node and np.isnan([*here[node]]).all(0).any() and not lacking[name]:
             lacking[name] = seen([node], inputs)
