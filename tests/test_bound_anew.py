@@ -106,9 +106,17 @@ def test_a_choice_declares_what_each_way_gives_the_same_unit(tmp_path: Path) -> 
     names, found = rows(tmp_path, CHOSEN)
     known = lines.registry(names)
     assert [name for name, again, _ in found if not again] == ["x", "p", "d", "e"]
-    assert (known["p"].unit, known["p"].meaning, known["d"].unit) == ("kN", "large", "kN") and "h" not in known
+    assert (known["p"].unit, known["d"].unit, "h" in known) == ("kN", "kN", False)
+    assert known["p"].meaning == "large or middle or small or smallest"
     assert on_the_page(names["t"]).count("begin{cases}") == 2 * 3  # by symbols, and with numbers
     assert [again > 0 for name, again, _ in found if name == "f"] == [True]
+
+
+def test_a_choice_means_what_any_of_its_ways_does(tmp_path: Path) -> None:
+    ways = "p = g.F  # [kN] by Euler", "p = 2.0  # [kN] by Johnson", "p = 1.0  # [kN] by Euler"
+    text = "if g.k > 2:\n    {}\nelif g.k > 1:\n    {}\nelse:\n    {}".format(*ways)
+    names, _ = rows(tmp_path, text)
+    assert lines.registry(names)["p"].meaning == "by Euler or by Johnson"
 
 
 @pytest.mark.parametrize(

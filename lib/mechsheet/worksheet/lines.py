@@ -103,6 +103,7 @@ def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
     return tuple(_formulas(cell))
 
 
+_OR = " or "  # between the meanings of a choice
 _FOUND = "_found"  # ends the name of what solves for the unknown whose name stands before it
 _OF_ONE = ("lo", "hi", "guess")  # arguments of a block with one unknown
 
@@ -186,7 +187,8 @@ def _chosen(cell: source.Cell, node: ast.If, earlier: Mapping[str, Declared]) ->
         stays = ast.copy_location(ast.Name(name, ast.Load()), node)
         expressions = [way[name].line.expression if name in way else stays for way in (yes, no)]
         choice = ast.copy_location(ast.IfExp(node.test, *expressions), node)
-        meant = next((each for each in told if each.meaning), told[0])
+        meanings = dict.fromkeys(part for each in told for part in each.meaning.split(_OR) if part)
+        meant = told[0]._replace(meaning=_OR.join(meanings))  # whichever way it goes
         found.append(_Told(Formula(name, choice, "", ""), meant, tuple(n for each in ways for n in each.numbers)))
     return found
 
