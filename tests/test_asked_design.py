@@ -216,6 +216,40 @@ def test_what_cannot_be_asked_or_reached_is_said_in_a_line(options, message, she
     assert "\n" not in str(error.value)
 
 
+CORNERS = """
+b = max(g.F + 1, 5 - g.F, g.a + 2)  # [-] greatest of three, least at F = 2, a < 1
+c = np.max(abs(np.array([g.F - 2, g.a - 0.5])))  # [-] nothing at F = 2, a = 0.5
+d = min(g.F, 4 - g.F)  # [-] least of two, greatest at F = 2
+e = math.sqrt(4 - g.F) * g.F  # [-] ends at F = 4"""
+
+
+@pytest.mark.parametrize(
+    ("options", "F", "said"),
+    [
+        (["--best=min b"], 2.0, "hold, held by 2 numbers of the goal: to the first order none near it is better"),
+        (["--vary=a=0..3", "--best=min c"], 2.0, "hold, held by 4 numbers of the goal"),
+        (["--best=max d"], 2.0, "hold, held by 2 numbers of the goal"),
+        (["--need=b <= 3.5", "--best=max F"], 2.5, "hold, held by b <= 3.5: to the first order"),
+        (["--need=F >= 1", "--need=F <= 1.75", "--best=max d"], 1.75, "hold, held by F <= 1.75"),
+    ],
+)
+def test_at_a_corner_the_conditions_are_those_of_each_of_its_numbers(options, F, said, tmp_path):
+    """An input that is varied may be the goal, or have to be small, itself."""
+    problem = asked(own(tmp_path, CORNERS), "--vary=F=0..5", *options)
+    chosen, told = asked_design.best(problem)
+    assert chosen["F"] == pytest.approx(F, abs=1e-6) and said in "\n".join(told)
+    assert '"F"' not in asked_design.scene_of(problem, chosen, told), "an input is no result with a limit"
+
+
+def test_a_design_is_refined_where_all_near_it_have_a_value(tmp_path):
+    """Of the whole of the bounds slopes lead beyond the end."""
+    sheet = own(tmp_path, CORNERS)
+    text = Path(sheet.path).read_text(encoding="utf-8")
+    Path(sheet.path).write_text(text.replace("F: float = 2.5  # [-] number", "F: float = 2.5  # [-] number; < 4"))
+    chosen, told = asked_design.best(asked(cells.load(sheet.path), "--vary=F=0..4", "--need=d <= 1.2", "--best=max e"))
+    assert chosen["F"] == pytest.approx(2.8, abs=1e-6) and "conditions of an optimum hold" in told[-2]
+
+
 def test_a_design_may_start_at_a_bound():
     """Rounding puts no start outside: the search for what can be reached sets out from the nearest design."""
     bucket = Path(__file__).parents[1] / "worksheets" / "examples" / "bucket.py"

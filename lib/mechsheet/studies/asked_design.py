@@ -132,7 +132,10 @@ class Problem:
         self.given = {name: shown[name] for name in asked.scene.inputs}  # of a list its text, which is no variants
         self.bounds = dict[str, tuple[float, float]]()
         with arguments.usage():
-            load(worksheet).needed(asked.results, ["g"])
+            sheet = load(worksheet)
+            results = (name for name in asked.results if name in sheet.results or name not in asked.vary)
+            self.computed = [*dict.fromkeys(map(base, results))]
+            sheet.needed(self.computed, ["g"])
             for name, ends in asked.vary.items():
                 continuous(self.fields, name, "cannot be had by")
                 low, high = (self.fields[name].read(end) for end in ends)
@@ -142,12 +145,12 @@ class Problem:
         now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
         valued = now
         if now.reasons[0]:  # a mechanism may be looked for that closes; the document's own tells the units
-            _, own = point(worksheet, {})
-            valued = sweep(worksheet, dict.fromkeys(map(base, asked.results)), _alone({x: own[x] for x in self.bounds}))
+            _, there = point(worksheet, {})
+            valued = sweep(worksheet, self.computed, _alone({x: there[x] for x in self.bounds}))
             solved(valued, 0)
         self.units = {name: valued.units[base(name)] for name in asked.results}
         for name in asked.results:
-            if np.iscomplexobj(value(name, {base(name): valued[base(name)]})):
+            if np.iscomplexobj(self.values(valued, name)):
                 raise arguments.UsageError(f"{name} is complex; take {name}.real, {name}.imag or abs({name})")
         with arguments.usage():
             self.limits = {need: self._limit(need) for need in asked.needs}
@@ -160,9 +163,12 @@ class Problem:
         return float(Input(need.name, unit, "limit of", "", False, ()).read(need.limit) * units.parse(unit).factor)
 
     def swept(self, variants: Mapping[str, Array]) -> Sweep:
-        return sweep(self.worksheet, dict.fromkeys(map(base, self.asked.results)), {**self.given, **variants})
+        return sweep(self.worksheet, self.computed, {**self.given, **variants})
 
     def values(self, swept: Sweep, name: str) -> Array:
+        """A result of all variants, or one of the inputs that are varied, in SI."""
+        if name in self.bounds and name not in self.computed:
+            return np.asarray(swept.inputs[name] * units.parse(self.units[name]).factor)
         return np.asarray(value(name, {base(name): swept[base(name)]}))
 
     def judge(self, variants: dict[str, Array]) -> design.Judged:
@@ -271,7 +277,7 @@ def scene_of(problem: Problem, chosen: Mapping[str, float], told: Sequence[str])
     """Text of the scene of a design; what must be equal to a number is no limit."""
     limits = dict[str, Limit]()
     for need, limit in problem.limits.items():
-        if need.end in ("", {">=": "min", "<=": "max"}.get(need.sign)):
+        if need.end in ("", {">=": "min", "<=": "max"}.get(need.sign)) and base(need.name) in problem.computed:
             end = limit / units.parse(problem.units[need.name]).factor
             known = limits.get(need.name, Limit())
             ends = [x for x in (known.min if need.sign == ">=" else known.max, end) if x is not None]

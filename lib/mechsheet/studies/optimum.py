@@ -41,9 +41,10 @@ def conditions(here: At, part: Array, names: Sequence[str]) -> str:
     above = here.reserves - here.goals * level
     holding = np.flatnonzero(above <= _ACTIVE * np.maximum(1.0, np.abs(here.reserves))).tolist()
     rows = [np.append(here.slopes[i], -1.0 * here.goals[i]) for i in holding]
-    positions = np.count_nonzero(here.goals[holding])
-    said = [f"the goal at {positions} positions"] if positions > 1 else []
-    said += [here.names[i] for i in holding if not here.goals[i]]
+    goals = [here.names[i] for i in holding if here.goals[i]]
+    places = "the goal at {} positions" if len({*goals}) > 1 else "{} numbers of the goal"
+    said = [places.format(len(goals))] if len(goals) > 1 else []
+    said += dict.fromkeys(here.names[i] for i in holding if not here.goals[i])
     for i, x in enumerate(part):
         for end, way, word in ((0.0, 1.0, "lower"), (1.0, -1.0, "upper")):
             if abs(x - end) <= _ACTIVE:

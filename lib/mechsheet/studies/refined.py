@@ -3,7 +3,7 @@
 The least of several numbers has corners, so it is a variable of its own below each of them, which is made greatest.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
@@ -27,6 +27,7 @@ Array = NDArray[np.float64]
 
 _KEPT = 1e-9  # of a limit: reserve of each requirement, so that rounding breaks none
 _STEPS = 60
+_REGIONS = 1.0, 0.1, 0.01, 0.001  # of the ranges, how far off the start a better one is looked for
 _SAMPLES, _SEED = 32, 1  # designs all over the bounds that tell what the goal varies by
 
 
@@ -47,6 +48,7 @@ class Problem(Protocol):
     worksheet: Any
     asked: Any
     fields: Any
+    computed: list[str]
     bounds: dict[str, tuple[float, float]]
     limits: Any
 
@@ -90,7 +92,18 @@ class Slopes:
         return self._known[key]
 
     def refined(self) -> dict[str, float]:
-        """A design near the start that is better, as far as slopes lead to one."""
+        """A design near the start that is better, as far as slopes lead to one: if need be where all have a value."""
+        first = self._parts(self._start)
+        here = self._at(first)
+        for part in _REGIONS:
+            try:
+                return self._refined(first, here, part)
+            except SheetError as error:
+                lost = error
+        raise lost
+
+    def _refined(self, first: Array, here: At, part: float) -> dict[str, float]:
+        """A better design no farther off the start than a part of the ranges."""
         from scipy.optimize import Bounds, minimize  # on use: takes longer than the rest of the package
 
         def at(z: Array) -> At:
@@ -104,16 +117,14 @@ class Slopes:
             here = at(z)
             return np.column_stack([here.slopes, -1.0 * here.goals])
 
-        first = self._parts(self._start)
-        here = self._at(first)
         down = np.append(np.zeros(len(first)), -1.0)
-        ends = np.append(np.ones(len(first)), np.inf)
+        lower, upper = np.maximum(first - part, 0.0), np.minimum(first + part, 1.0)
         method: Any = minimize  # its stubs refuse a start of a known length beside slopes that have none
         found = method(
             lambda z: float(-z[-1]),
             np.append(first, here.reserves[here.goals].min()),
             jac=lambda _: down,
-            bounds=Bounds(np.where(np.isfinite(ends), 0.0, -np.inf), ends),
+            bounds=Bounds(np.append(lower, -np.inf), np.append(upper, np.inf)),
             constraints=[{"type": "ineq", "fun": reserve, "jac": slope}],
             method="SLSQP",
             options={"maxiter": _STEPS, "ftol": 1e-14},
@@ -145,35 +156,40 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     """
     sheet, asked = load(Path(problem.worksheet)), problem.asked
     g: Any = declarations.build(sheet.inputs, {**asked.scene.inputs, **design})
-    only = replace(sheet, cells=tuple(sheet.needed([base(name) for name in asked.results], ["g"])))
+    only = replace(sheet, cells=tuple(sheet.needed(problem.computed, ["g"])))
     with silently():
         recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
     nodes = {name: node for name in asked.results if (node := part_of(name, recording.values))}
+    nodes |= {name: recording.inputs[name] for name in asked.results if base(name) not in problem.computed}
     if missing := [name for name in asked.results if name not in nodes]:
         raise SheetError(f"{missing[0]} is not recorded")
     by = [recording.inputs[x] for x in design]
-    found = slopes(nodes.values(), by)
+    parts = {(name, way): [*_each(node, way)] for name, node in nodes.items() for way in (1.0, -1.0)}
+    every = dict.fromkeys(node for each in parts.values() for node, _ in each)
+    found = slopes([*nodes.values(), *every], by)
     ranges = np.array([(b - a) * units.parse(problem.fields[x].unit).factor for x, (a, b) in problem.bounds.items()])
     reserves, slants, goals, labels = list[Array](), list[Array](), list[bool](), list[str]()
     places = list[tuple[Node, int, float]]()
 
     def add(name: str, sign: float, limit: float, size: float, is_goal: bool, text: str, end: str = "") -> None:
-        values, ahead = nodes[name].value.reshape(-1), found[nodes[name]].both
-        slant = ahead.reshape(len(ranges), -1).T * ranges
-        if np.isnan(values).any():
+        if np.isnan(nodes[name].value).any():
             raise SheetError(f"a design on the way to a better one has no {name}")
-        if np.isnan(slant).any():
-            raise SheetError(f"{name} has no slope at {text}")
-        keep = range(values.size)
-        if (end == "max" and sign > 0) or (end == "min" and sign < 0):  # at one position alone: that which is the end
-            keep = range(k := int(np.argmax(sign * values)), k + 1)
+        alone = (end == "max" and sign > 0) or (end == "min" and sign < 0)  # at one position: that which is the end
         off, part = (goal.start, size * goal.varies) if is_goal else (0.0, size)
-        for k in keep:
-            reserves.append(np.array([(sign * (values[k] - limit) - off * size) / part]))
-            slants.append(sign * slant[k : k + 1] / part)
-            goals.append(is_goal)
-            places.append((nodes[name], k, sign / part))
-            labels.append(text + (f" at position {k}" if values.size > 1 else ""))
+        for node, way in [(nodes[name], 1.0)] if alone else parts[name, sign]:
+            values, ahead = way * node.value.reshape(-1), way * found[node].both
+            slant = ahead.reshape(len(ranges), -1).T * ranges
+            if np.isnan(slant).any():
+                raise SheetError(f"{name} has no slope at {text}")
+            keep = range(values.size)
+            if alone:
+                keep = range(k := int(np.argmax(sign * values)), k + 1)
+            for k in keep:
+                reserves.append(np.array([(sign * (values[k] - limit) - off * size) / part]))
+                slants.append(sign * slant[k : k + 1] / part)
+                goals.append(is_goal)
+                places.append((node, k, sign * way / part))
+                labels.append(text + (f" at position {k}" if nodes[name].size > 1 else ""))
 
     for need in asked.needs:
         limit = problem.limits[need]
@@ -184,7 +200,24 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
         add(name, 1.0 if way == "max" else -1.0, 0.0, 1.0, True, f"{way} {name}")
 
     def bent(directions: Array) -> Array:
-        seconds = bends(nodes.values(), by, directions * ranges)
+        seconds = bends(every, by, directions * ranges)
         return np.stack([x * seconds[node].reshape(len(directions), -1)[:, k] for node, k, x in places], axis=1)
 
     return At(np.concatenate(reserves), np.concatenate(slants), np.array(goals), labels, bent)
+
+
+def _each(node: Node, sign: float) -> Iterator[tuple[Node, float]]:
+    """The numbers of which one that must be small is the greatest, or one that must be great the least, by their signs.
+
+    Each of them is smooth where that has a corner.
+    """
+    extreme = "min" if sign > 0 else "max"
+    if node.op == extreme and all(x.shape == node.shape for x in node.operands):
+        for x in node.operands:
+            yield from _each(x, sign)
+    elif node.op == "reduce" and node.args[2] == extreme and node.args[3].axis is None:
+        yield from _each(node.operands[0], sign)
+    elif node.op == "abs" and sign < 0:
+        yield from ((node.operands[0], 1.0), (node.operands[0], -1.0))
+    else:
+        yield node, 1.0
