@@ -87,6 +87,22 @@ def test_one_input_gives_a_result_its_value(sheet):
     assert chosen["F"] == pytest.approx(4.0, abs=1e-12)
 
 
+def test_where_other_values_would_do_too_they_are_told(tmp_path):
+    """As of a number of belts, of which a search finds one place and no more."""
+    sheet = own(tmp_path, "n = np.ceil(g.F)  # [-] belts\nm = min(g.F, 3.0)  # [-] no more\nt = 2 * g.F  # [-] once")
+    chosen, told = asked_design.solve(asked(sheet, "--vary=F=0..5", "--need=n = 3"))
+    assert 2 < chosen["F"] <= 3 and re.match(r"any F of 2\.0\d+\.\.3 would do, as far as 201 places tell", told[1])
+    _, told = asked_design.solve(asked(sheet, "--vary=F=0..5", "--need=m = 3"))
+    assert re.match(r"any F of 3\S*\.\.5 would do", told[1])
+    assert len(asked_design.solve(asked(sheet, "--vary=F=0..5", "--need=t = 4"))[1]) == 1
+
+
+def test_what_is_no_number_cannot_be_asked_for(tmp_path):
+    sheet = own(tmp_path, "way = 'by one' if g.F > 2 else 'by another'")
+    with pytest.raises(arguments.UsageError, match="way is no number"):
+        asked(sheet, "--vary=F=0..5", "--best=max way")
+
+
 def test_what_a_design_does_not_rest_on_may_have_no_value(tmp_path, recwarn):
     sheet = own(tmp_path, LINES + "\nv = np.sqrt(g.F - 9)  # [-] no number")
     chosen, _ = asked_design.best(asked(sheet, "--vary=F=0..5", "--best=max p"))

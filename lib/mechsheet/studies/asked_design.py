@@ -31,6 +31,7 @@ from mechsheet.worksheet.scene import Limit, Scene
 Array = NDArray[np.float64]
 
 _GENERATIONS, _MEMBERS, _SEED = 30, 10, 1
+_PLACES = 201  # at which it is looked whether other values would do
 _DIGITS = 5  # to which the inputs are found, of their ranges
 _NAME = r"(\w+(?:\.real|\.imag)?|abs\(\w+\))"
 _NEED = re.compile(rf"(?:(min|max)\s+)?{_NAME}\s*(>=|<=|=)\s*(.+)")
@@ -142,7 +143,10 @@ class Problem:
                 if not low < high:
                     raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
                 self.bounds[name] = low, high
-        now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
+        try:
+            now = self.swept({name: np.array([self.at[name]]) for name in self.bounds})
+        except TypeError as error:  # of what is no number
+            raise arguments.UsageError(str(error)) from None
         valued = now
         if now.reasons[0]:  # a mechanism may be looked for that closes; the document's own tells the units
             _, there = point(worksheet, {})
@@ -230,7 +234,15 @@ def solve(problem: Problem) -> tuple[dict[str, float], list[str]]:
     )
     if not found.solved:
         raise SheetError(str(found.reason))
-    return {name: float(found.value / factor)}, [str(found)]
+    x = float(found.value / factor)
+    places = np.unique(np.append(np.linspace(low, high, _PLACES), x))
+    others = np.flatnonzero(f(places * factor) != problem.limits[need])
+    k = np.searchsorted(places[others], x)
+    level = places[others[k - 1] + 1 if k else 0 : others[k] if k < len(others) else None]
+    if len(level) < 2:
+        return {name: x}, [str(found)]
+    ends = numbers.span(numbers.significant(end, 6) for end in (level[0], level[-1])) + numbers.suffix(field.unit)
+    return {name: x}, [str(found), f"any {name} of {ends} would do, as far as {_PLACES} places tell"]
 
 
 def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[dict[str, float], list[str]]:
