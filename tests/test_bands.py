@@ -257,6 +257,24 @@ def test_random_cases_without_a_value_leave_those_that_have_one(tmp_path, capsys
     assert "nan" not in out and 0.5 <= low < 0.55 and 3.7 < high <= 3.75
 
 
+def test_what_is_whole_is_guaranteed_as_a_whole_number(tmp_path):
+    sheet = off(tmp_path, 9, "± 0.2", "", "\nr = (g.n + 1) % 3  # [-] rest\nk = np.floor(g.F)  # [-] whole")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording, by = record(names, sheet, whole=True, every=1), tolerances(names["g"])
+    nodes = [recording.values[name].re for name in ("r", "k")]
+    bounds = enclosed(nodes, {recording.inputs[x]: t.size for x, t in by.items()})
+    assert [[float(end) for end in bounds[node]] for node in nodes] == [[0, 0], [2, 2]]
+
+
+@pytest.mark.parametrize(("distribution", "told"), [("", 0), (" normal", 1)])
+def test_what_is_guaranteed_is_not_of_cases_beyond_a_normal_tolerance(distribution, told, tmp_path, capsys):
+    sheet = off(tmp_path, 9, f"± 1{distribution}", "", "\ns = 2 * g.F  # [-] twice")
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=s"], declared(sheet.inputs)))
+    out = capsys.readouterr().out
+    least, low = re.search(r"^5 .* (\S+)\.\.\S+ +(\S+)\.\.\S+$", out, re.MULTILINE).groups()
+    assert out.count("no guaranteed bound holds") == told == (float(least) < float(low))
+
+
 TOLD = """
 t = np.sqrt(np.array([g.F - 2.0, g.F]))  # [-] none for some
 word = "few" if g.F < 3 else "many"

@@ -25,7 +25,11 @@ def enclosed(wanted: Iterable[Node], within: Mapping[Node, float]) -> dict[Node,
 
 
 def _ends(balls: Values, end: str, way: float) -> Values:
-    """Ends of balls as floats beyond them."""
-    known = (float(getattr(x, end)()) if isinstance(x, arb) and x.is_finite() else np.nan for x in balls.flat)
-    ends: Values = np.nextafter(np.fromiter(known, float, balls.size), way)
-    return ends.reshape(balls.shape)
+    """Ends of balls as floats that are these or beyond them."""
+
+    def outside(x: arb) -> float:
+        near = float(x)
+        return near if arb(near) == x else float(np.nextafter(near, way))
+
+    known = (outside(getattr(x, end)()) if isinstance(x, arb) and x.is_finite() else np.nan for x in balls.flat)
+    return np.fromiter(known, float, balls.size).reshape(balls.shape)

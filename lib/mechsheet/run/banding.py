@@ -70,6 +70,8 @@ def lines(
     bands = Bands(recording, by, run)
     nodes = {name: node for name in quantities if (node := part_of(name, recording.values))}
     yield f"within {', '.join(map(str, by.values()))}"
+    if any(t.normal for t in by.values()):
+        yield "of a normal tolerance 3 cases in 1000 lie beyond it, where no worst case and no guaranteed bound holds"
     gaps = {name: np.count_nonzero(np.isnan(node.value)) for name, node in nodes.items()}
     yield from (f"{x}: not known, there is none at {n} of {nodes[x].size} positions" for x, n in gaps.items() if n)
     nodes = {name: node for name, node in nodes.items() if not gaps[name]}
