@@ -12,7 +12,7 @@ import time
 import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from tempfile import mkdtemp
 from types import ModuleType
@@ -48,6 +48,7 @@ settings.load_profile("repeatable")
 
 COMPUTING = ("numpy.", "mpmath.", "mechsheet.mechanics.", "mechsheet.studies.", "mechsheet.accuracy.")
 SIZE: ViewportSize = {"width": 1280, "height": 1000}
+OPEN = 3  # worksheets left open for other tests
 CHROMIUM_FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -166,15 +167,23 @@ def examples(count: int, **others: Any) -> settings:
     return settings(max_examples=count * settings.default.max_examples // 100, **others)
 
 
+def set_up(folder: Path) -> None:
+    """Give a folder the project's settings.
+
+    The library stays as it is meanwhile: each editor would take six seconds of a processor to find out what to look at
+    for changes.
+    """
+    settings = (ROOT / "pyproject.toml").read_text("utf-8")
+    (folder / "pyproject.toml").write_text(settings.replace('auto_reload = "autorun"', ""), "utf-8")
+
+
 def placed(worksheet: Path, folder: Path) -> Path:
     """A copy of the worksheet in a folder with the project's settings: what the editor saves stays out of the project.
 
-    Those beside it are there for one that reads them. The library stays as it is meanwhile: each editor would take six
-    seconds of a processor to find out what to look at for changes.
+    Those beside it are there for one that reads them.
     """
+    set_up(folder)
     shutil.copytree(ROOT / "worksheets", folder / "worksheets", ignore=shutil.ignore_patterns("__*__"))
-    settings = (ROOT / "pyproject.toml").read_text("utf-8")
-    (folder / "pyproject.toml").write_text(settings.replace('auto_reload = "autorun"', ""), "utf-8")
     if worksheet.is_relative_to(ROOT / "worksheets"):
         return folder / worksheet.relative_to(ROOT)
     for beside in (*worksheet.parent.glob("*.csv"), *worksheet.parent.glob("*.toml")):
@@ -250,37 +259,25 @@ def own_units() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path], str]]:
-    """Address of a worksheet at one marimo server for all that run."""
+def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str, Path], str]]:
+    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that run and one for the others.
+
+    All who open an editor see what one of them has typed: there each has a copy of its own.
+    """
     with ExitStack() as servers:
 
         @cache
-        def shown() -> tuple[Path, str]:
-            folder = tmp_path_factory.mktemp("run")
-            return folder, servers.enter_context(marimo_server("run", folder, folder))
+        def shown(mode: str) -> tuple[Path, str]:
+            folder = tmp_path_factory.mktemp(mode)
+            set_up(folder)
+            return folder, servers.enter_context(marimo_server(mode, folder, folder))
 
-        @cache
-        def address(worksheet: Path) -> str:
-            folder, server = shown()
+        def copied(mode: str, worksheet: Path) -> str:
+            folder, server = shown(mode)
             return f"{server}/?file={quote(str(placed(worksheet, Path(mkdtemp(dir=folder)))))}"
 
-        yield address
-
-
-@pytest.fixture
-def serve(
-    running: Callable[[Path], str], tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Callable[[str, Path], str]]:
-    """``serve("run" or "edit", worksheet)``: its address, at one marimo server for all that run, else at its own."""
-    with ExitStack() as servers:  # an editor's own looks for changes all the time
-
-        def at(mode: str, worksheet: Path) -> str:
-            if mode == "run":
-                return running(worksheet)
-            folder = tmp_path_factory.mktemp(mode)  # all who open an editor see what one of them has typed
-            return servers.enter_context(marimo_server(mode, placed(worksheet, folder), folder))
-
-        yield at
+        running = cache(partial(copied, "run"))
+        yield lambda mode, worksheet: running(worksheet) if mode == "run" else copied(mode, worksheet)
 
 
 @pytest.fixture(scope="session")
@@ -303,12 +300,29 @@ def profile(browser: Browser) -> BrowserContext:
     return context
 
 
+@cache
+def given_back(browser: Browser) -> list[Page]:
+    """Pages that nobody uses now: one that has shown a worksheet shows the next for two fifths of the processor's time."""
+    return []
+
+
 @contextmanager
 def new_page(browser: Browser) -> Iterator[Page]:
-    """A page without history, wide enough for a worksheet."""
-    page = profile(browser).new_page()
+    """A page of which nothing is left of who had it before, wide enough for a worksheet."""
+    others = given_back(browser)
+    page = others.pop() if others else profile(browser).new_page()
     yield page
-    page.close()
+    emptied(page)
+    others.append(page)
+
+
+def emptied(page: Page) -> None:
+    """Leave nothing of what a page has shown, and has been told."""
+    if page.url.startswith("http"):
+        page.evaluate("sessionStorage.clear()")
+    page.goto("about:blank")
+    page.set_viewport_size(SIZE)
+    page.emulate_media(media="null", color_scheme="null")
 
 
 @pytest.fixture
@@ -319,7 +333,9 @@ def page(browser: Browser) -> Iterator[Page]:
 
 
 @pytest.fixture(scope="session")
-def pages(browser: Browser, running: Callable[[Path], str]) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
+def pages(
+    browser: Browser, serve: Callable[[str, Path], str]
+) -> Iterator[tuple[Callable[[Path, str], Page], list[str]]]:
     """Pages that many tests use in turn, and what they report as errors."""
     known: dict[Path, Page] = {}
     in_the_end = ExitStack()
@@ -331,13 +347,20 @@ def pages(browser: Browser, running: Callable[[Path], str]) -> Iterator[tuple[Ca
         return of_user.evaluate_all("all => all.map(e => [e.value, e.checked, e.ariaValueNow, e.open, e.className])")
 
     def opened(worksheet: Path, text: str) -> Page:
-        if worksheet not in known:
-            known[worksheet] = in_the_end.enter_context(new_page(browser))
-            report_errors(known[worksheet], errors)
-        page = known[worksheet]
+        if worksheet in known:
+            page = known.pop(worksheet)
+        elif len(known) < OPEN:
+            page = in_the_end.enter_context(new_page(browser))
+            report_errors(page, errors)
+        else:  # of what was looked at longest ago
+            former = next(iter(known))
+            page = known.pop(former)
+            fresh.pop(former, None)
+            emptied(page)
+        known[worksheet] = page
         page.bring_to_front()  # one that is behind others may draw nothing
         if worksheet not in fresh or state(page) != fresh[worksheet]:
-            page.goto(running(worksheet))
+            page.goto(serve("run", worksheet))
             page.get_by_text(text).first.wait_for()
             alive(page)
             fresh[worksheet] = state(page)

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import marimo
 import pytest
-from conftest import alive, drawn, until
+from conftest import alive, drawn, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
 
 from mechsheet import __main__ as launcher
@@ -33,6 +33,7 @@ class Editor:
 
     def __init__(self, page, address):
         self.page = page
+        self.former = {}
         page.goto(address)
         self.expect("2 of 2 checks pass")
         alive(page)
@@ -45,17 +46,32 @@ class Editor:
     def edit(self, old: str, new: str):
         """Put a text in the place of another one in the cell that holds it, and run the cell."""
         found = self.page.locator(".marimo-cell", has=self.page.locator(".cm-content", has_text=old)).first
-        cell = self.page.locator(f"#{found.get_attribute('id')}")
-        code = cell.locator(".cm-content").first
-        text = written(code)
+        cell = found.get_attribute("id")
+        text = written(self.code(cell))
         assert old in text
-        code.click()
+        self.former.setdefault(cell, text)
+        self.write(cell, text.replace(old, new))
+        return self.page.locator(f"#{cell}")
+
+    def code(self, cell: str):
+        return self.page.locator(f"#{cell} .cm-content").first
+
+    def write(self, cell: str, text: str) -> None:
+        self.code(cell).click()
         self.page.keyboard.press("Control+a")
-        self.page.keyboard.insert_text(text.replace(old, new))
-        until(self.page, lambda: written(code) == text.replace(old, new), "the editor does not take the text")
+        self.page.keyboard.insert_text(text)
+        until(self.page, lambda: written(self.code(cell)) == text, "the editor does not take the text")
         drawn(self.page)
         self.page.keyboard.press("Control+Enter")
-        return cell
+
+    def take_back(self) -> None:
+        """Leave the cells as they were."""
+        for cell, text in self.former.items():
+            if written(self.code(cell)) != text:
+                self.write(cell, text)
+        self.former = {}
+        self.expect("2 of 2 checks pass")
+        self.expect_last_moment("420")
 
     def told(self) -> list[str]:
         """Mistakes named in the title block."""
@@ -66,11 +82,20 @@ class Editor:
         expect(table.locator("tbody tr").last.locator("td").last).to_have_text(text)
 
 
-@pytest.fixture
-def editor(serve, page, tmp_path):
-    sheet = tmp_path / "lever.py"
+@pytest.fixture(scope="module")
+def opened(browser, tmp_path_factory):
+    """An editor for all tests: to open one takes as long as what any of them does there."""
+    sheet, folder = tmp_path_factory.mktemp("lever") / "lever.py", tmp_path_factory.mktemp("edit")
     sheet.write_text(TEMPLATE.read_text(encoding="utf-8").replace("TITLE", "Lever"), encoding="utf-8")
-    return Editor(page, serve("edit", sheet))
+    with marimo_server("edit", placed(sheet, folder), folder) as address, new_page(browser) as page:
+        yield Editor(page, address)
+
+
+@pytest.fixture
+def editor(opened, chromium):
+    """The browser must be named for the marks."""
+    yield opened
+    opened.take_back()
 
 
 def click_until(page, shown):
@@ -231,13 +256,14 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
         until(page, lambda: text in place.evaluate(shown), "it is not told at its line")
         expect(page.locator(".ms-title a", has_text=text)).to_have_attribute("href", f"#{cell.get_attribute('id')}")
 
-    page.locator(".ms-switch").check()
+    switch = page.locator(".ms-switch")
+    switch.check()
     tells(
         editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [m]"),
         "line 6, M_S: unit [m] does not fit; the value is in N·m",
     )
     editor.expect_last_moment("420.000")  # the sheet stays computed
-    expect(page.locator(".ms-switch")).to_be_checked()
+    expect(switch).to_be_checked()
     cell = editor.edit("M_S = M(phi)  # [m]", "M_S = M(phi)  # [N*m]")
     page.wait_for_function("() => !document.querySelector('.ms-title a')")
     tells(
@@ -261,6 +287,7 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     editor.expect_last_moment("420")
     editor.edit("M_S = M(phi)  # [N*m] moment over", "M_S = M(phi)  # moment over")
     editor.expect("column M_S: no line declares M_S with its unit")
+    switch.uncheck()
 
 
 class Cells:
@@ -524,8 +551,9 @@ def test_a_line_that_is_drawn_anew_under_the_pointer_is_clicked(editor):
     page.keyboard.press("Escape")
 
 
-def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(editor):
-    page, told = editor.page, editor.page.locator(".ms-written")
+def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chromium):
+    """The last of those in the editor, which lacks it then."""
+    page, told = opened.page, opened.page.locator(".ms-written")
     cells = page.locator(".marimo-cell")
     count, needed = cells.count(), cells.filter(has=page.locator("#line-M_S"))
     needed.hover()

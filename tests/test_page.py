@@ -6,7 +6,7 @@ from math import inf
 from pathlib import Path
 
 import pytest
-from conftest import SIZE, alive, drawn, in_sight, marimo_server, new_page, placed, report_errors, until
+from conftest import SIZE, alive, drawn, in_sight, new_page, report_errors, until
 from playwright.sync_api import expect
 
 HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
@@ -48,12 +48,12 @@ def page(left_open):
 
 
 @pytest.fixture(scope="module")
-def edited(browser, tmp_path_factory):
+def edited(browser, serve):
     """The hitch in the editor, to be read."""
-    errors, folder = list[str](), tmp_path_factory.mktemp("edit")
-    with marimo_server("edit", placed(HITCH, folder), folder) as address, new_page(browser) as page:
+    errors = list[str]()
+    with new_page(browser) as page:
         report_errors(page, errors)
-        page.goto(address)
+        page.goto(serve("edit", HITCH))
         ready(page)
         yield page
         assert errors == []
