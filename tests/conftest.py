@@ -302,7 +302,7 @@ def profile(browser: Browser) -> BrowserContext:
 
 @cache
 def given_back(browser: Browser) -> list[Page]:
-    """Pages that nobody uses now: one that has shown a worksheet shows the next for two fifths of the processor's time."""
+    """Pages that nobody uses now: one that has shown a worksheet shows the next for two fifths of the work."""
     return []
 
 

@@ -12,6 +12,7 @@ import marimo
 import pytest
 from conftest import alive, drawn, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
+from test_page import choose
 
 from mechsheet import __main__ as launcher
 from mechsheet.document.left_out import left_out
@@ -549,6 +550,40 @@ def test_a_line_that_is_drawn_anew_under_the_pointer_is_clicked(editor):
     page.mouse.up()
     expect(page.locator(".ms-box textarea")).to_have_value(re.compile("^M_n = "))
     page.keyboard.press("Escape")
+
+
+def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):
+    """By the keys alone, as in the page that is served; it stays while the inputs change."""
+    page = editor.page
+    table = page.locator(".ms-table:has-text('Table 1 ') table >> visible=true")
+    line, row = page.locator(".ms-line", has_text="moment over the positions"), table.locator("tbody tr").last
+    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
+    unit = line.locator("ms-unit")
+    unit.focus()
+    unit.press("Enter")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    expect(line).to_contain_text("0, 0.1087, 0.21, ")
+    expect(row.locator("td").last).to_have_text("0.420")
+    assert page.evaluate("document.activeElement.textContent") == "kN·m", "the focus stays at the unit"
+    choose(page, table.locator("th ms-unit").first, "rad")
+    expect(row.locator("td").first).to_have_text("1.571")
+    field = page.locator(".ms-inputs tr:has-text('force on the lever') input")
+    field.fill("2400,5")
+    field.press("Enter")
+    expect(row.locator("td").last, "2400.5 N * 0.35 m").to_have_text("0.840")
+    expect(line.locator("ms-value .ms-chosen")).to_contain_text("0.84")
+    page.emulate_media(media="print")
+    expect(row.locator("td").last).to_have_text("0.840")
+    page.emulate_media(media="null")
+    choose(page, table.locator("th ms-unit").last, "N·m")
+    expect(line.locator(".ms-chosen")).to_have_count(0)
+    expect(row.locator("td").last).to_have_text("840")
+    field.fill("1200")
+    field.press("Enter")
+    choose(page, table.locator("th ms-unit").first, "°")
+    expect(row.locator("td").first).to_have_text("90.0")
+    editor.expect_last_moment("420")
 
 
 def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chromium):

@@ -164,22 +164,6 @@ def test_slider_moves_the_scheme(page):
     until(page, lambda: scheme.inner_html() == before, "the scheme is another one")
 
 
-def test_play_moves_the_slider_until_it_is_stopped(page):
-    slider, button = page.get_by_role("slider").first, page.locator(".ms-play").first
-
-    def at() -> float:
-        return float(slider.get_attribute("aria-valuenow"))
-
-    first = at()
-    button.click()
-    until(page, lambda: at() > first + 0.04, "the slider rests")
-    button.click()
-    drawn(page)
-    stopped = at()
-    page.wait_for_timeout(500)  # ten of its steps
-    assert at() == stopped
-
-
 def test_switch_shows_the_numbers_in_the_formulas(page):
     assert page.locator("ms-numbers marimo-tex").count() == 0, "nothing is typeset before it is asked for"
     page.locator(".ms-switch").check()
@@ -226,6 +210,10 @@ def test_every_session_has_its_own_inputs(serve, browser, page):
             field.press("Enter")
         for each, force in zip(weights, ("94265", "141397"), strict=True):
             expect(cell(each, "4.1", 1, 2), "129614 * weight / 27500").to_have_text(force)
+    field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
+    field.fill("27500")
+    field.press("Enter")
+    expect(cell(page, "4.1", 1, 2)).to_have_text("129614")
 
 
 def test_outline_leads_to_the_sections(page):
@@ -298,24 +286,6 @@ def test_on_a_narrow_screen_no_number_of_a_list_is_cut_off(edited):
         .map((e) => e.textContent)"""
     assert edited.evaluate(beyond) == []
     edited.set_viewport_size(SIZE)
-
-
-def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(serve, browser):
-    """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
-    with new_page(browser) as page:  # so high that it may be of no use to others
-        page.goto(serve("run", HITCH))
-        ready(page)
-        page.wait_for_function("() => 'measured' in document.documentElement.dataset")
-        page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
-        drawn(page)
-        mark = "() => { document.querySelectorAll('.output-area').forEach((e) => e.classList.add('x')); }"
-        elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
-        browser.start_tracing(page=page, categories=["devtools.timeline"])
-        page.evaluate(mark)
-        drawn(page)
-        events = json.loads(browser.stop_tracing())["traceEvents"]
-        styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
-        assert 0 < styled < elements / 20
 
 
 def test_download_is_the_workbook(page, tmp_path):
@@ -406,9 +376,8 @@ def test_printed_page_is_a_document(page, tmp_path):
     assert not any(line.startswith("Table ") for lines in headings for line in lines), "a caption torn from its table"
 
 
-def test_a_unit_is_switched_wherever_the_quantity_is_shown(opened):
+def test_a_unit_is_switched_wherever_the_quantity_is_shown(page):
     """By the keys alone; it stays while the inputs change, and is printed as it is seen."""
-    page = opened
     table = page.locator(".ms-table:has-text('Table 4.1 ') table >> visible=true")
     line, force = (
         page.locator(".ms-line", has_text="force on the hydraulic cylinders"),
@@ -440,3 +409,37 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(opened):
     field.press("Enter")
     choose(page, page.locator(".ms-table:has-text('Table 2.2 ') th ms-unit >> visible=true").first, "m")
     expect(line).to_contain_text("129614, ")
+
+
+def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(browser, page):
+    """marimo marks an output while its cell runs; formulas and tables in it must not be styled again for that."""
+    page.wait_for_function("() => 'measured' in document.documentElement.dataset")
+    page.set_viewport_size({"width": 1280, "height": 14_000})  # cells out of sight are not styled at all
+    drawn(page)
+    mark = "mark => { document.querySelectorAll('.output-area').forEach((e) => e.classList.toggle('x', mark)); }"
+    elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
+    browser.start_tracing(page=page, categories=["devtools.timeline"])
+    page.evaluate(mark, True)
+    drawn(page)
+    events = json.loads(browser.stop_tracing())["traceEvents"]
+    styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
+    page.evaluate(mark, False)
+    page.set_viewport_size(SIZE)
+    assert 0 < styled < elements / 20
+
+
+def test_play_moves_the_slider_until_it_is_stopped(page):
+    """The last that uses the page, which is opened again where a slider has moved."""
+    slider, button = page.get_by_role("slider").first, page.locator(".ms-play").first
+
+    def at() -> float:
+        return float(slider.get_attribute("aria-valuenow"))
+
+    first = at()
+    button.click()
+    until(page, lambda: at() > first + 0.04, "the slider rests")
+    button.click()
+    drawn(page)
+    stopped = at()
+    page.wait_for_timeout(500)  # ten of its steps
+    assert at() == stopped
