@@ -318,6 +318,7 @@ def new_page(browser: Browser) -> Iterator[Page]:
 
 def emptied(page: Page) -> None:
     """Leave nothing of what a page has shown, and has been told."""
+    page.unroute_all(behavior="ignoreErrors")
     if page.url.startswith("http"):
         page.evaluate("sessionStorage.clear()")
     page.goto("about:blank")
