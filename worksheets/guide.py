@@ -125,7 +125,8 @@ def section_3():
     ## 3 A function, and a field
 
     What depends on the position is a function, `lambda phi: ..`, or `def` where it is long. Given an array of positions
-    it computes all of them at once: that is a field, and it needs no loop.
+    it computes all of them at once: that is a field, and it needs no loop. What takes something of the turn before, as
+    a series or steps of time, is one: `for i in range(1, g.n + 1): s += g.x**i / i`, below a line with `s = 0.0`.
 
     **Try** 25 positions instead of 13 in `linspace`.
     """)
