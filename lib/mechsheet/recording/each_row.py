@@ -1,6 +1,7 @@
 """A list with an element for each row of a table, or for those that a condition keeps, whatever their number."""
 
-from collections.abc import Callable
+import weakref
+from collections.abc import Callable, Sequence
 from types import FunctionType
 from typing import Any
 
@@ -10,7 +11,7 @@ from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.array_rules import SORTED
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.numpy_rules import as_many
-from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
+from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, owner
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.ufunc_rules import finite
@@ -63,15 +64,43 @@ def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: A
     return per_row.of_rows(kind, f, lambda *_: plainly(*sources), *(source for source, _ in every))
 
 
-def sums(f: FunctionType, *sources: Any) -> list[Any] | None:
-    """Sums of each of the values that ``f`` gives for a row; None where they are not followed."""
+def sums(kinds: str, f: FunctionType, held: Sequence[Any], *sources: Any) -> list[Any] | None:
+    """Sums of each of the values that ``f`` gives for a row, or lists or arrays of them; None where not followed.
+
+    The lists and arrays were ``held`` before: empty, or of as many elements, of which each is set.
+    """
     every = [_unselected(source) for source in sources]
+    whole = iter(held)
+    before = [None if kind == "sum" else next(whole) for kind in kinds.split()]
+    if any(kind == "list" and (type(x) is not list or x) for kind, x in zip(kinds.split(), before, strict=True)):
+        return None
     if all(holds is None for _, holds in every):
-        return per_row.sums(f, *(source for source, _ in every))
-    rows = None if way_may_change(f) else each_row(lambda *row: (True, f(*row)), *sources)
+        found = per_row.each_of(f, *(source for source, _ in every))
+        made = None if found is None else [*map(_made, kinds.split(), found, before)]
+        return None if made is None or any(x is None for x in made) else made
+    rows = None if way_may_change(f) or held else each_row(lambda *row: (True, f(*row)), *sources)
     if rows is None or not rows.some.value:  # the names of the loop are bound to its last row
         return None
     return [EachRow(part, rows.holds).of("sum") for part in rows.parts.parts]
+
+
+def _made(kind: str, column: Quantity, before: Any) -> Any:
+    """What a loop makes of a value for each row; None of an array that is of another length or kind."""
+    if kind == "sum":
+        return column.reduced("sum")
+    if kind == "list":
+        return _all(column, column)
+    graph = column.graph
+    same = isinstance(before, Quantity) and not isinstance(before, Selected) and before.ndim == 1
+    if (
+        not same
+        or before.im is not column.im
+        or before.dtype.kind != "f"
+        or graph.size(before.re) != graph.size(column.re)
+    ):
+        return None
+    graph.gone.append(weakref.ref(owner(before)))
+    return column
 
 
 def paired(*sources: Any, **named: Any) -> Any:

@@ -26,10 +26,10 @@ def of_rows(kind: str, f: Callable[..., Any], plainly: Callable[..., Any], *sour
     return _whole(kind, found[0]) if found else plainly(*sources)
 
 
-def sums(f: Callable[..., Any], *sources: Any) -> list[Any] | None:
-    """Sums of each of the values that ``f`` gives for a row; None where these are no formulas of single numbers."""
-    found = None if way_may_change(f) else _followed(f, sources, _numbers)
-    return [_whole("sum", each) for each in found] if found else None
+def each_of(f: Callable[..., Any], *sources: Any) -> list[Quantity] | None:
+    """Columns of each of the values that ``f`` gives for a row; None where these are no formulas of single numbers."""
+    found: list[Quantity] | None = None if way_may_change(f) else _followed(f, sources, _numbers)
+    return found
 
 
 def columns(f: Callable[..., Any], *sources: Any) -> Any:
@@ -183,4 +183,4 @@ def _whole(kind: str, each: Quantity) -> Any:
     return each if kind == "array" else each.reduced(kind)
 
 
-CALLS: dict[str, Any] = {"of_rows": of_rows, "sums": sums}
+CALLS: dict[str, Any] = {"of_rows": of_rows}

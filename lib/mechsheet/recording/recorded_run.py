@@ -246,7 +246,8 @@ class Run(OfPositions):
             if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
                 own = self.namespace.get(name, made)
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
-            self.looked[name] = tuple(rests.values())
+            former = self.looked.get(name, ()) if name in facts.turned else ()  # which stands where there is no turn
+            self.looked[name] = (*rests.values(), *former)
             self.hold(name, rests.values())
             if isinstance(value := self.names.get(name), Selected) and name in self.lines and not value.draws:
                 self.note(Guard(value.same, graph.line))

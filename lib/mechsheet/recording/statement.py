@@ -38,6 +38,7 @@ class Statement(NamedTuple):
     heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
+    turned: frozenset[str]  # names that each turn of a loop binds first
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
 
@@ -48,6 +49,8 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
     if any(isinstance(n, _SCOPES) for n in nodes):  # else all of them are the worksheet's
         names = [*_read(statement, frozenset())]
+    turned = _turned(statement)
+    names = [n for n in names if n.id not in turned]
     of_parts = {id(n.value) for n in attributes}
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
@@ -57,8 +60,17 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
+        turned,
         tuple(_columns(statement)),
     )
+
+
+def _turned(statement: ast.stmt) -> frozenset[str]:
+    """Names that a loop binds before anything in it reads them."""
+    if not isinstance(statement, ast.For):
+        return frozenset()
+    targets = frozenset(n.id for n in source.nodes(statement.target) if isinstance(n, ast.Name))
+    return frozenset() if targets & _names(statement.iter) else targets
 
 
 def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
