@@ -60,6 +60,8 @@ FOLLOWED = [
     "NAME = math.fsum(g.x**q for q in range(g.m, g.n)) * 1.0",
     "NAME = max(math.sin(q * g.x) for q in range(g.n + 1)) * 1.0",
     "NAME = sum(g.x**q for q in range(1, int(g.n / 2) + 1)) * 1.0",
+    "s = 0.0\nfor i in range(g.n // 2, g.n):\n    s += g.x**i / (i + 1)\nNAME = s",
+    "s = 1.0\nfor i in range(max(g.n % 3, abs(g.m - g.n))):\n    s = s * g.x + 1\nNAME = s",
     "NAME = sum(math.comb(g.n, q) * g.x**q for q in range(g.n + 1)) * 1.0",
     "NAME = sum(g.x**q / math.factorial(q) for q in range(g.n + 1)) * 1.0",
     "s = 0.0\nfor q in range(g.n + 1):\n    s += (-1) ** q * g.x ** (2 * q) / math.factorial(2 * q)\nNAME = s",

@@ -96,3 +96,51 @@ def test_as_many_are_shown_as_the_condition_holds_for(blank: Page, tmp_path: Pat
             assert number is not None, (line, each, found["gaps"].get(str(k)))
             assert np.shape(number) == np.shape(expected), (line, each)
             np.testing.assert_allclose(number, expected, rtol=1e-12, atol=1e-13, err_msg=f"{line} {each}")
+
+
+UNLIKE = [  # of arrays that are as long as each other now alone
+    "P + Q", "where(P > 0.7, Q, 0.0)", "P @ Q", "np.dot(P, Q)", "np.interp(g.w, np.sort(P), Q)", "P + 1j * Q",
+    "(P + 1j * Q).imag", "(P * Q).sum()", "np.trapezoid(Q, P)", "(P > Q).any() * 1.0", "(P - Q > 5).sum() * 1.0",
+    "len(P - Q) * 1.0", "np.isclose(P, Q).sum() * 1.0", "np.array([P, Q])", "np.average(P, weights=Q)",
+    "np.polyfit(np.sort(P), Q, 1)[0]", "P * Q.sum()", "np.concatenate([P, Q])",
+    "sum(p * q for p, q in zip(P, Q)) * 1.0",
+]  # fmt: skip
+
+
+def test_nothing_is_shown_of_arrays_that_are_not_as_long_as_each_other(blank: Page, tmp_path: Path) -> None:
+    """The worksheet has no number for these inputs; one element goes with any number where numpy repeats it."""
+    path = tmp_path / "own.py"
+    lines = "t = np.linspace(0, 6, g.n)  # [-] time\nF = np.cos(t * g.w)  # [-] force\n"
+    lines += "P = F[F > g.lim]  # [-] some\nQ = F[t < 2.4]  # [-] others\n"
+    lines += "\n".join(f"y_{k} = {each}  # [-] line" for k, each in enumerate(UNLIKE))
+    setup = SETUP.replace("np\n", "np\nfrom numpy import where\n", 1)
+    text = written(setup, GIVEN, lines + '\ntable_1 = table("1", "All", F)\ntypeset()')
+    path.write_text(text, encoding="utf-8")
+    sheet = cells.load(path)
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+    values = {f"y_{k}": recording.values[f"y_{k}"] for k in range(len(UNLIKE))}
+    parts = {f"{name} {n}": node for name, value in values.items() for n, node in enumerate(value.parts)}
+    guards = {name: [guard.holds for guard in recording.looked[name]] for name in values}
+    parts |= {f"{name} guard {n}": node for name, each in guards.items() for n, node in enumerate(each)}
+    given = [{name: float(getattr(sheet.inputs(**each), name)) for name in ("n", "lim", "w", "k")} for each in GIVES]
+    followed = 0
+    for each, found in zip(GIVES, evaluated(blank, javascript.module(recording, parts), given), strict=True):
+        g = sheet.inputs(**each)
+        t = np.linspace(0, 6, g.n)
+        F = np.cos(t * g.w)
+        P, Q = F[g.lim < F], F[t < 2.4]
+        own = {"np": np, "where": np.where, "g": g, "P": P, "Q": Q}
+        for k, line in enumerate(UNLIKE):
+            here = [found["values"][f"y_{k} {n}"] for n, _ in enumerate(values[f"y_{k}"].parts)]
+            seen = [found["values"][f"y_{k} guard {n}"] for n, _ in enumerate(guards[f"y_{k}"])]
+            if any(x is None for x in here) or not all(x == 1 for x in seen):
+                continue
+            number = here[0] if len(here) == 1 else here[0] + 1j * here[1]
+            try:
+                expected = eval(line, own)
+            except (ValueError, TypeError, np.linalg.LinAlgError):
+                expected = np.full(np.shape(number), np.nan)
+            np.testing.assert_allclose(number, expected, rtol=1e-9, atol=1e-11, err_msg=f"{line} {each}")
+            followed += 1
+    assert followed > 2 * len(UNLIKE)

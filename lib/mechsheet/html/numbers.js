@@ -61,7 +61,7 @@ function over(shape, f) {
 const together = (...shapes) => {
   const axes = max(...shapes.map(shape => shape.length));
   const along = k => shapes.map(shape => shape[k - axes + shape.length] ?? 1).filter(n => n != 1);
-  return Array.from({length: axes}, (_, k) => along(k)[0] ?? 1);
+  return Array.from({length: axes}, (_, k) => (along(k).length ? max(...along(k)) : 1));
 };
 
 // What numpy's functions do that move elements: of a field and its shape a field that knows its own.

@@ -109,7 +109,28 @@ def polar(phi: Quantity) -> Quantity:
 
 def floor_divide(x: Quantity, y: Quantity) -> Any:
     """Whole quotients as numpy has them: what `mod` leaves is taken away first."""
-    return elementwise("round")((x - x % y) / y)
+    quotient = elementwise("round")((x - x % y) / y)
+    return whole(quotient) if is_whole(x) and is_whole(y) else quotient
+
+
+def is_whole(x: Quantity) -> bool:
+    """Whether Python has a whole number there, where it has one at all."""
+    waiting, known, whole = [x.re], set[Node](), x.graph.whole
+    while waiting:
+        part = waiting.pop()
+        if part in known or part in whole or part.value.dtype.kind in "iu":
+            continue
+        known.add(part)
+        match part.op:
+            case "sized":
+                waiting.append(part.args[0])
+            case "where":
+                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
+            case "add" | "sub" | "mul" | "neg" | "mod" | "max" | "min" | "abs":
+                waiting += part.args
+            case _:
+                return False
+    return True
 
 
 def whole(x: Quantity) -> Quantity:
@@ -166,6 +187,7 @@ def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
         texts: Any = np.where(plain(condition), x, y)
         return texts
     c, a, b = lift(graph, condition), lift(graph, x), lift(graph, y)
+    graph.go_together(*c.parts, *a.parts, *b.parts)
     if a.im is None and b.im is None:
         return Quantity(graph, graph.fold("where", c.re, a.re, b.re))
     return Quantity(graph, graph.fold("where", c.re, a.re, b.re), graph.fold("where", c.re, imaginary(a), imaginary(b)))

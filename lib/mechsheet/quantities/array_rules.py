@@ -61,6 +61,7 @@ def polynomial_fit(graph: Graph, x: Any, y: Any, deg: int, rcond: Any = None, fu
     if full:
         raise NotRecorded("numpy's polyfit with all that it tells")
     x, y = lift(graph, x), lift(graph, y)
+    graph.go_together(*x.parts, *y.parts, strictly=True)
     powers = [x**k if k else lift(graph, 1.0).like(x) for k in reversed(range(deg + 1))]
     if w is not None:
         powers, y = [power * w for power in powers], y * w
@@ -151,6 +152,7 @@ def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
 
 def interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
     x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
+    graph.go_together(*xp.parts, *fp.parts, strictly=True)
     if xp.extent == (1,):
         graph.measure(xp.re)
         return fp[0] + 0 * x

@@ -2,6 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Generator, Sequence
+from itertools import combinations
 from typing import Any, TypeVar
 
 from mechsheet.quantities.node import Node
@@ -13,6 +14,8 @@ _Asking = Generator[tuple[Node, int], Any, _T]  # of something that needs length
 
 class Lengths(ABC):
     """The lengths of the axes of quantities, as quantities; ``fixed`` ones rest on constants alone."""
+
+    draws: bool  # whether readers take any number of rows
 
     def __init__(self) -> None:
         self.fixed = set[Node]()
@@ -30,6 +33,27 @@ class Lengths(ABC):
     @abstractmethod
     def own_length(self, node: Node, axis: int) -> Node:
         """The length of a quantity along an axis that nothing else has."""
+
+    @abstractmethod
+    def see(self, seen: Node) -> None:
+        """Note that Python looks at a condition, which holds now."""
+
+    def go_together(self, *parts: Node, strictly: bool = False) -> None:
+        """Note that the shapes of quantities go together, as numpy asks for, where readers take any number of rows.
+
+        Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis.
+        """
+        fields = [part for part in parts if part.shape]
+        if not self.draws or len(fields) < 2 or not any(part.stretches for part in fields):
+            return
+        one = self.constant(1)
+        for axis in range(-1 if strictly else -max(len(part.shape) for part in fields), 0):
+            lengths = dict.fromkeys(self.length(part, axis) for part in fields if len(part.shape) >= -axis)
+            for a, b in combinations(lengths, 2):
+                alike = self.node("eq", a, b)
+                if not strictly:
+                    alike = self.node("or", alike, self.node("or", self.node("eq", a, one), self.node("eq", b, one)))
+                self.see(alike)
 
     def length(self, node: Node, axis: int) -> Node:
         """How many elements a quantity has along an axis, which is counted from the last one."""

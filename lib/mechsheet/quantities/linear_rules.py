@@ -26,6 +26,7 @@ def product(graph: Graph, x: Any, y: Any) -> Any:
     if not x.ndim or not y.ndim:
         return x * y
     if y.ndim == 1:
+        graph.go_together(*x.parts, *y.parts, strictly=True)
         return (x * y).reduced("sum", -1)
     if x.ndim == 1:
         return (x[:, None] * y).reduced("sum", -2)

@@ -322,6 +322,7 @@ class Quantity(NDArrayOperatorsMixin):
         operands = [x if type(x) is Quantity else lift(self.graph, x) for x in inputs]
         if ufunc.signature or ufunc.nout > 1:
             return operation(*operands)
+        self.graph.go_together(*(part for x in operands for part in x.parts))
         key = ufunc, *[(x.re, x.im) for x in operands]
         known = self.graph.called.get(key)
         if known is None:
@@ -421,6 +422,8 @@ def stack(parts: Sequence[Quantity]) -> Quantity:
     shapes = {
         id(part) if any(own.stretches for own in part.parts) else part.extent: part for part in parts if part.extent
     }
+    stretching = (own for part in shapes.values() for own in part.parts if own.stretches)
+    parts[0].graph.go_together(*stretching, strictly=True)
     return joined([part.like(*shapes.values()) for part in parts], np.stack)
 
 

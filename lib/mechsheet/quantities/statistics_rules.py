@@ -43,6 +43,8 @@ def average(graph: Graph, x: Any, axis: Any = None, weights: Any = None) -> Any:
     x, weights = lift(graph, x), lift(graph, weights)
     if axis is not None and weights.ndim == 1:  # along it
         weights = weights[(slice(None), *(None,) * (x.ndim - 1 - axis % x.ndim))]
+    if axis is None:
+        graph.go_together(*x.parts, *weights.parts, strictly=True)
     return (x * weights).reduced("sum", axis) / (weights + 0 * x).reduced("sum", axis)
 
 

@@ -7,9 +7,7 @@ from functools import reduce
 from operator import or_
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.arithmetic import choice, is_whole
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
@@ -240,31 +238,11 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
     elif isinstance(value, Quantity) and (short := _SHORT.fullmatch(spec)):
         digits, kind = short[1] or ".6", short[2]
         value, spec, end = (value * 100, f"{digits}f", kind) if kind == "%" else (value, digits + kind, "")
-    elif isinstance(value, Quantity) and not spec and is_whole(value.re):
+    elif isinstance(value, Quantity) and not spec and is_whole(value):
         spec = "d"
     followed = _is_followed(value, spec)
     yield Number(value, spec) if followed and isinstance(value, Quantity) else value if followed else f"{value:{spec}}"
     yield end
-
-
-def is_whole(node: Node) -> bool:
-    """Whether Python has a whole number there, where it has one at all."""
-    waiting, known, whole = [node], set[Node](), current.get().whole
-    while waiting:
-        part = waiting.pop()
-        if part in known or part in whole or part.value.dtype.kind in "iu":
-            continue
-        known.add(part)
-        match part.op:
-            case "sized":
-                waiting.append(part.args[0])
-            case "where":
-                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
-            case "add" | "sub" | "mul" | "neg":
-                waiting += part.args
-            case _:
-                return False
-    return True
 
 
 def joined(sign: Any, parts: Any) -> Any:
