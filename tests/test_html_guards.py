@@ -17,7 +17,8 @@ from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 
 MASK = """y = x**2  # [-] squares
-big = y[y > 5.0]  # [-] some of them
+M = np.stack([y, y])
+big = M[M > 5.0]  # [-] some of them
 s = np.diff(big).sum()  # [-] rests on them
 z = y.sum() + len("ab" if g.a < 1 else "a")  # [-] rests on a
 v = 2.0 * g.F  # [-] rests on neither
