@@ -102,7 +102,9 @@ def test_what_an_option_or_a_row_cannot_have_is_told(line: str) -> None:
 
 def test_an_input_is_no_result_and_told_as_one(gears: Path) -> None:
     said = rf"h is an input of {gears}, not a result: h_1 = g.h in a line is one"
-    asked = asked_design.read(["--vary=h=1..2", "--best=max h"], inputs.declared(load(gears).inputs))
+    varied = asked_design.read(["--vary=h=1..2", "--best=max h"], inputs.declared(load(gears).inputs))
+    assert asked_design.Problem(gears, varied), "one that is varied may be the goal"
+    asked = asked_design.read(["--vary=w=1..2", "--best=max h"], inputs.declared(load(gears).inputs))
     with pytest.raises(arguments.UsageError, match=said):
         asked_design.Problem(gears, asked)
     for ask in (lambda: evaluate(gears, ["h"]), lambda: sweep(gears, ["h"], {"h": np.array([1.0])})):

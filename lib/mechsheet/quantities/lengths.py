@@ -12,10 +12,21 @@ _T = TypeVar("_T")
 _Asking = Generator[tuple[Node, int], Any, _T]  # of something that needs lengths: of which quantities, along which axes
 
 
+def _by_condition(length: Node) -> bool:
+    """Whether a length is that of the elements for which a condition holds."""
+    waiting = [length]
+    while waiting:
+        part = waiting.pop()
+        if part.op == "reduce":
+            return True
+        waiting += part.args if part.op in ELEMENTWISE else ()
+    return False
+
+
 class Lengths(ABC):
     """The lengths of the axes of quantities, as quantities; ``fixed`` ones rest on constants alone."""
 
-    draws: bool  # whether readers take any number of rows
+    filtered = False  # whether a condition tells how many rows something has
 
     def __init__(self) -> None:
         self.fixed = set[Node]()
@@ -39,17 +50,19 @@ class Lengths(ABC):
         """Note that Python looks at a condition, which holds now."""
 
     def go_together(self, *parts: Node, strictly: bool = False) -> None:
-        """Note that the shapes of quantities go together, as numpy asks for, where readers take any number of rows.
+        """Note that the shapes of quantities go together, as numpy asks for, where a condition tells how many rows.
 
         Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis.
         """
         fields = [part for part in parts if part.shape]
-        if not self.draws or len(fields) < 2 or not any(part.stretches for part in fields):
+        if not self.filtered or len(fields) < 2 or not any(part.stretches for part in fields):
             return
         one = self.constant(1)
         for axis in range(-1 if strictly else -max(len(part.shape) for part in fields), 0):
             lengths = dict.fromkeys(self.length(part, axis) for part in fields if len(part.shape) >= -axis)
             for a, b in combinations(lengths, 2):
+                if not (_by_condition(a) or _by_condition(b)):
+                    continue
                 alike = self.node("eq", a, b)
                 if not strictly:
                     alike = self.node("or", alike, self.node("or", self.node("eq", a, one), self.node("eq", b, one)))

@@ -37,6 +37,7 @@ class Selected(Quantity):
         if name not in ("re", "im"):
             return super().__getattr__(name)
         if self.draws:
+            self.graph.filtered = True
             places = Quantity(self.graph, self.graph.rows(self.count(0).re))
             return getattr(self.of[np.searchsorted(self._numbered(), places + 1)], name)
         held = self.of.rearranged(np.ndarray.__getitem__, self.holds.seen())

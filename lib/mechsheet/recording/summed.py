@@ -6,16 +6,13 @@ Or append it to a list, or set the element of that number: ``for i in range(n): 
 import ast
 import copy
 from collections.abc import Iterator
-from typing import Any
 
 from mechsheet.recording.forms import call, changes, rows_of, taking
 from mechsheet.worksheet.source import bound
 
 _SCOPES = ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
 _NONE = ""  # the name of what is no step
-_Added = tuple[
-    str, Any, ast.expr
-]  # what is added to a name or taken away, "list" of what is appended, "set" of elements
+_Added = tuple[str, ast.operator | str, ast.expr]  # what is added to a name, or taken away, appended or set
 
 
 def as_sums(node: ast.For) -> list[ast.stmt] | None:
@@ -36,7 +33,7 @@ def as_sums(node: ast.For) -> list[ast.stmt] | None:
     if not added or _NONE in steps or totals & own or steps.keys() & (own | totals) or read & (steps.keys() | totals):
         return None
     whole = [name for name, kind, _ in added if isinstance(kind, str)]
-    if len({*whole}) < len(whole) or (any(kind == "set" for _, kind, _ in added) and not _is_numbered(node, added)):
+    if len({*whole}) < len(whole) or (any(kind == "set" for _, kind, _ in added) and not _is_numbered(node)):
         return None
     known = ast.Name(f"recorded sums {node.lineno}", ast.Load())
     each = taking(rows[0], ast.Tuple([value for *_, value in added], ast.Load()))
@@ -64,7 +61,7 @@ def as_sums(node: ast.For) -> list[ast.stmt] | None:
     return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (asked, either)]
 
 
-def _is_numbered(node: ast.For, added: list[_Added]) -> bool:
+def _is_numbered(node: ast.For) -> bool:
     """Whether a turn sets the elements of its own number, counted from 0."""
     match node:
         case ast.For(ast.Name(number), ast.Call(ast.Name("range"), [_], [])):
