@@ -12,7 +12,7 @@ import marimo
 import pytest
 from conftest import alive, drawn, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
-from test_page import choose
+from test_page import choose, choose_by_keys
 
 from mechsheet import __main__ as launcher
 from mechsheet.document.left_out import left_out
@@ -557,12 +557,7 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):
     page = editor.page
     table = page.locator(".ms-table:has-text('Table 1 ') table >> visible=true")
     line, row = page.locator(".ms-line", has_text="moment over the positions"), table.locator("tbody tr").last
-    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
-    unit = line.locator("ms-unit")
-    unit.focus()
-    unit.press("Enter")
-    page.keyboard.press("ArrowDown")
-    page.keyboard.press("Enter")
+    choose_by_keys(line)
     expect(line).to_contain_text("0, 0.1087, 0.21, ")
     expect(row.locator("td").last).to_have_text("0.420")
     assert page.evaluate("document.activeElement.textContent") == "kN·m", "the focus stays at the unit"

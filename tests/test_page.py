@@ -41,6 +41,16 @@ def choose(page, unit, other: str) -> None:
     item.click()
 
 
+def choose_by_keys(line) -> None:
+    """The next unit of a line."""
+    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
+    unit = line.locator("ms-unit")
+    unit.focus()
+    unit.press("Enter")
+    line.page.keyboard.press("ArrowDown")
+    line.page.keyboard.press("Enter")
+
+
 @pytest.fixture
 def page(left_open):
     """The hitch in ``run`` with the document's own inputs."""
@@ -383,12 +393,7 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(page):
         page.locator(".ms-line", has_text="force on the hydraulic cylinders"),
         table.locator("td:nth-child(2)").first,
     )
-    line.locator(".katex").first.wait_for()  # its formula comes after it, and the line once more with it
-    unit = line.locator("ms-unit")
-    unit.focus()
-    unit.press("Enter")
-    page.keyboard.press("ArrowDown")
-    page.keyboard.press("Enter")
+    choose_by_keys(line)
     expect(line).to_contain_text("129.61, 123.28, ")
     expect(force).to_have_text("129.61")
     assert page.evaluate("document.activeElement.textContent") == "kN", "the focus stays at the unit"

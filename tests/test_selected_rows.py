@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ from in_browser import evaluated
 from own_worksheet import written
 
 from mechsheet.html import javascript
+from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
 SETUP = """
 import numpy as np
+from numpy import where
 
 from mechsheet import ask, inputs, read, table, typeset
 """
@@ -76,19 +79,23 @@ GIVES: list[dict[str, Any]] = [
 ]  # fmt: skip
 
 
-def test_as_many_are_shown_as_the_condition_holds_for(blank: Page, tmp_path: Path) -> None:
-    path = tmp_path / "own.py"
-    lines = "t = np.linspace(0, 6, g.n)  # [-] time\nF = np.cos(t * g.w)  # [-] force\nZ = F + 1j * t\n"
-    lines += "M = np.stack([F, t], axis=1)\n"
-    lines += "\n".join(f"y_{k} = {each}  # [-] line" for k, each in enumerate(ARRAYS))
+def recorded(folder: Path, some: str, each: Sequence[str]) -> tuple[cells.Worksheet, Recording, list[dict[str, float]]]:
+    """A worksheet with some lines and each of others, its recording for a page, and the sets of inputs."""
+    lines = f"t = np.linspace(0, 6, g.n)  # [-] time\nF = np.cos(t * g.w)  # [-] force\n{some}\n"
+    lines += "\n".join(f"y_{k} = {line}  # [-] line" for k, line in enumerate(each))
+    path = folder / "own.py"
     path.write_text(written(SETUP, GIVEN, lines + '\ntable_1 = table("1", "All", F)\ntypeset()'), encoding="utf-8")
     sheet = cells.load(path)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    recording = record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+    given = [{name: float(getattr(sheet.inputs(**own), name)) for name in ("n", "lim", "w", "k")} for own in GIVES]
+    return sheet, record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True), given
+
+
+def test_as_many_are_shown_as_the_condition_holds_for(blank: Page, tmp_path: Path) -> None:
+    sheet, recording, given = recorded(tmp_path, "Z = F + 1j * t\nM = np.stack([F, t], axis=1)", ARRAYS)
     values = {str(k): recording.values.get(f"y_{k}") for k in range(len(ARRAYS))}
     assert all(isinstance(value, Quantity) for value in values.values())
     script = javascript.module(recording, {k: value.re for k, value in values.items() if isinstance(value, Quantity)})
-    given = [{name: float(getattr(sheet.inputs(**each), name)) for name in ("n", "lim", "w", "k")} for each in GIVES]
     for each, found in zip(GIVES, evaluated(blank, script, given), strict=True):
         own = sheet.run([f"y_{k}" for k in range(len(ARRAYS))], {"g": sheet.inputs(**each)})
         for k, line in enumerate(ARRAYS):
@@ -109,21 +116,12 @@ UNLIKE = [  # of arrays that are as long as each other now alone
 
 def test_nothing_is_shown_of_arrays_that_are_not_as_long_as_each_other(blank: Page, tmp_path: Path) -> None:
     """The worksheet has no number for these inputs; one element goes with any number where numpy repeats it."""
-    path = tmp_path / "own.py"
-    lines = "t = np.linspace(0, 6, g.n)  # [-] time\nF = np.cos(t * g.w)  # [-] force\n"
-    lines += "P = F[F > g.lim]  # [-] some\nQ = F[t < 2.4]  # [-] others\n"
-    lines += "\n".join(f"y_{k} = {each}  # [-] line" for k, each in enumerate(UNLIKE))
-    setup = SETUP.replace("np\n", "np\nfrom numpy import where\n", 1)
-    text = written(setup, GIVEN, lines + '\ntable_1 = table("1", "All", F)\ntypeset()')
-    path.write_text(text, encoding="utf-8")
-    sheet = cells.load(path)
-    names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    recording = record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+    some = "P = F[F > g.lim]  # [-] some\nQ = F[t < 2.4]  # [-] others"
+    sheet, recording, given = recorded(tmp_path, some, UNLIKE)
     values = {f"y_{k}": recording.values[f"y_{k}"] for k in range(len(UNLIKE))}
     parts = {f"{name} {n}": node for name, value in values.items() for n, node in enumerate(value.parts)}
     guards = {name: [guard.holds for guard in recording.looked[name]] for name in values}
     parts |= {f"{name} guard {n}": node for name, each in guards.items() for n, node in enumerate(each)}
-    given = [{name: float(getattr(sheet.inputs(**each), name)) for name in ("n", "lim", "w", "k")} for each in GIVES]
     followed = 0
     for each, found in zip(GIVES, evaluated(blank, javascript.module(recording, parts), given), strict=True):
         g = sheet.inputs(**each)

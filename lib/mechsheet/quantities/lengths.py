@@ -54,11 +54,11 @@ class Lengths(ABC):
 
         Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis.
         """
-        fields = [part for part in parts if part.shape]
-        if not self.filtered or len(fields) < 2 or not any(part.stretches for part in fields):
+        if not self.filtered:
             return
+        fields = [part for part in parts if part.shape]
         one = self.constant(1)
-        for axis in range(-1 if strictly else -max(len(part.shape) for part in fields), 0):
+        for axis in range(-1 if strictly else -max((len(part.shape) for part in fields), default=0), 0):
             lengths = dict.fromkeys(self.length(part, axis) for part in fields if len(part.shape) >= -axis)
             for a, b in combinations(lengths, 2):
                 if not (_by_condition(a) or _by_condition(b)):
@@ -128,15 +128,13 @@ class Lengths(ABC):
         elif node.op == "take" and len(node.args[2]) == 1:
             source, _, (moved,) = node.args
             origin = moved.origin(axis, len(source.shape))
-            if origin and origin.whole:
+            if origin and origin.left_out == 0:
                 known: Node = yield source, origin.axis
                 return known
             if origin and (origin.axis is None or not (yield from self._any_stretches([source], origin.axis))):
                 return self.constant(node.shape[axis])
-            if origin and origin.left_out is not None:
+            if origin and origin.left_out:
                 known = yield source, origin.axis
-                if not origin.left_out:
-                    return known
                 return self.node("max", self.node("sub", known, self.constant(origin.left_out)), self.constant(0))
         found = set[Node]()
         for part, k in parts:

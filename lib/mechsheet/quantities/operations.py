@@ -76,7 +76,7 @@ class Moved:
         numbers = iter(range(-axes, 0))
         numbered = [(None if k is None else next(numbers), k) for k in every]
         number, key = [(n, k) for n, k in numbered if type(k) is not int][axis]
-        return Origin(number, key == slice(None), _left_out(key))
+        return Origin(number, _left_out(key))
 
     def picked(self, stack: "Moved", axes: int) -> tuple[int, tuple["Moved", ...]] | None:
         """The number of the quantity in a stack of so many axes at which an index points, and what it picks of that."""
@@ -96,11 +96,10 @@ _KEPT_FROM: dict[Any, int] = {np.ravel: 1, np.atleast_1d: 1, np.atleast_2d: 2}  
 class Origin(NamedTuple):
     """The axis that an axis shows, counted from the last one; none of a new one.
 
-    Whether it shows all of it as it stands, or how many it leaves out, where that is so for any length.
+    And how many it leaves out, where these are as many for any length.
     """
 
     axis: int | None
-    whole: bool
     left_out: int | None
 
 

@@ -70,13 +70,13 @@ def sums(kinds: str, f: FunctionType, held: Sequence[Any], *sources: Any) -> lis
     The lists and arrays were ``held`` before: empty, or of as many elements, of which each is set.
     """
     every = [_unselected(source) for source in sources]
-    whole = iter(held)
-    before = [None if kind == "sum" else next(whole) for kind in kinds.split()]
-    if any(kind == "list" and (type(x) is not list or x) for kind, x in zip(kinds.split(), before, strict=True)):
+    each, whole = kinds.split(), iter(held)
+    before = [None if kind == "sum" else next(whole) for kind in each]
+    if any(kind == "list" and (type(x) is not list or x) for kind, x in zip(each, before, strict=True)):
         return None
     if all(holds is None for _, holds in every):
         found = per_row.each_of(f, *(source for source, _ in every))
-        made = None if found is None else [*map(_made, kinds.split(), found, before)]
+        made = None if found is None else [*map(_made, each, found, before)]
         return None if made is None or any(x is None for x in made) else made
     rows = None if way_may_change(f) or held else each_row(lambda *row: (True, f(*row)), *sources)
     if rows is None or not rows.some.value:  # the names of the loop are bound to its last row
@@ -116,7 +116,7 @@ def numbered(source: Any, start: Any = 0) -> Any:
     values, holds = _unselected(source)
     if current.get().draws and holds is None and type(start) is int and per_row.are_rows([values]):
         column = per_row.first_of(values)
-        rows = per_row.Numbers(Quantity(column.graph, column.graph.rows(column.count(0).re)), start)
+        rows = per_row.Numbers(Quantity(column.graph, column.graph.rows(column.count(0).re)), lambda row: row + start)
         return _all(Together((rows, values)), values)
     return enumerate(source, start)
 
@@ -127,7 +127,7 @@ def counted(*ends: Any) -> Any:
     if current.get().draws and isinstance(turns, Turns):
         rows = Quantity(current.get(), current.get().rows(as_many(turns.count).re))
         if is_any_length(rows):
-            return _all(per_row.Numbers(rows, turns.start, turns.step), rows)
+            return _all(per_row.Numbers(rows, turns.of), rows)
     return turns
 
 

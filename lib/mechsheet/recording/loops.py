@@ -45,7 +45,7 @@ class Turns:
         self.ends, self.start, self.step, self.count = ends, start, step, count
 
     def of(self, number: Any) -> Any:
-        return number * self.step + self.start
+        return (number if self.step == 1 else number * self.step) + self.start
 
     def end(self, number: Any) -> Quantity:
         """Whether a turn is the last one."""
@@ -73,12 +73,11 @@ def counted(*ends: Any) -> Any:
 
 def over_all(kind: str, f: Callable[[Any], Any], turns: Turns) -> Any:
     """The ``sum`` and the like of what a function gives for each number; there is one at least."""
-    put = _PUT[kind]
-    return _counted(lambda k, so_far: (False, k, put(so_far, f(k))), turns, 0, (UNBOUND, _NONE[kind]))[1]
+    put, of_none = _PUT[kind]
+    return _counted(lambda k, so_far: (False, k, put(so_far, f(k))), turns, 0, (UNBOUND, of_none))[1]
 
 
-_PUT: dict[str, Callable[[Any, Any], Any]] = {"sum": operator.add, "prod": operator.mul}
-_NONE = {"sum": 0, "prod": 1}
+_PUT: dict[str, tuple[Callable[[Any, Any], Any], int]] = {"sum": (operator.add, 0), "prod": (operator.mul, 1)}
 
 
 def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:

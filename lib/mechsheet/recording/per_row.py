@@ -54,11 +54,9 @@ class Together:
 class Numbers:
     """The number of each row, of any one that Python knows a whole number of its own."""
 
-    def __init__(self, column: Quantity, start: Any = 0, step: int = 1) -> None:
-        self.column, self.start, self.step = column, start, step
-
-    def of(self, row: Any) -> Any:
-        return (row if self.step == 1 else row * self.step) + self.start
+    def __init__(self, column: Quantity, of: Callable[[Any], Any]) -> None:
+        """``of`` makes the number of that of a row, counted from 0."""
+        self.column, self.of = column, of
 
     def __getitem__(self, row: Any) -> Any:
         number = self.of(row if isinstance(row, int) and 0 <= row < self.column.extent[0] else self.column[row])
