@@ -417,22 +417,13 @@ def in_sight(at: Locator) -> None:
 def drawn(page: Page) -> None:
     """Wait until the page has nothing left to do and has drawn what was done.
 
-    Now and then Chromium asks a page for no more pictures until it is brought to the front once more.
+    A second is enough for what is left: now and then Chromium has nothing to do and finds no idle time either.
     """
-    from playwright.sync_api import TimeoutError
-
-    def asked() -> bool:
-        page.bring_to_front()
-        with suppress(TimeoutError):
-            page.wait_for_function(
-                "() => new Promise(done =>"
-                " requestIdleCallback(() => requestAnimationFrame(() => setTimeout(done, 0, true))))",
-                timeout=WITHIN * 100,
-            )
-            return True
-        return False
-
-    until(page, asked, "nothing is drawn")
+    page.bring_to_front()  # one that is behind others may draw nothing
+    page.wait_for_function(
+        "() => new Promise(done => requestIdleCallback("
+        "() => requestAnimationFrame(() => setTimeout(done, 0, true)), {timeout: 1000}))"
+    )
 
 
 def alive(page: Page) -> None:

@@ -116,7 +116,8 @@
     }
   }
 
-  const whenIdle = (act) => (window.requestIdleCallback ?? setTimeout)(act);
+  // At the latest after a second: now and then Chromium has nothing to do and finds no idle time either.
+  const whenIdle = (act) => (window.requestIdleCallback ?? setTimeout)(act, { timeout: 1000 });
 
   class States extends HTMLElement {
     constructor() {
