@@ -74,13 +74,26 @@ GATHERED = [  # in lists and arrays, which a workbook has as long as now
     "L, M = [], []\nfor i in range(1, g.n + 1):\n    d = g.x / i\n    L.append(d)\n    M.append(d**2)\n"
     "NAME = np.dot(L, M)",
     "v = np.zeros(g.n)\nfor i in range(g.n):\n    v[i] = g.x * i + 1\nNAME = v.sum() + len(v)",
+    "v = np.zeros(g.m + 1)\nfor i in range(g.m):\n    v[i + 1] = v[i] + g.x\nNAME = v.sum() * 1.0",
+    "v = np.zeros(g.m + 1)\nv[0] = g.x\nfor i in range(1, g.m + 1):\n    v[i] = v[i - 1] * g.x + i\nNAME = v[-1] * 1.0",
+    "v, t = np.zeros((g.n + 1, 2)), np.linspace(0, 1, g.n + 1)\nfor i in range(g.n):\n"
+    "    v[i + 1] = v[i] + np.array([v[i, 1], 1 - g.x * v[i, 0]]) * (t[i + 1] - t[i])\nNAME = v[-1, 0] + v[:, 1].sum()",
+    "w, s = np.zeros(g.n + 1), np.zeros(g.n + 1)\nfor i in range(g.n):\n    a = 10 - g.x * w[i]**2\n"
+    "    w[i + 1] = w[i] + a * 0.1\n    s[i + 1] = s[i] + (w[i] + w[i + 1]) / 2 * 0.1\n    if w[i + 1] > 1.5:\n"
+    "        w[i + 1] = 1.5\nNAME = s[-1] + w.max()",
+    "w = np.zeros(g.n + 1)\nfor i in range(g.n):\n    w[i + 1] = w[i] + g.x\n    if w[i + 1] > 3:\n        break\n"
+    "NAME = w.max() + w.sum()",
+    "w = np.zeros(g.n + 1)\nfor i in range(g.n + 1):\n    w[i] += g.x\n    w[g.n - i] += 1\nNAME = w.max() + w.sum()",
+    "v = np.zeros(50)\nfor i in range(g.n):\n    v[i + 1] = v[i] + g.x\nNAME = v.sum() * 1.0",
+    "v = np.zeros(50)\nv[g.n] = g.x\nv[-g.m - 1] = 2.0\nNAME = v[5] + v[13] * 2 + v[45] * 3 + v[47] * 4",
+    "def lift(count):\n    y = np.zeros(count + 1)\n    y[0] = 0.1\n    for k in range(1, count + 1):\n"
+    "        y[k] = y[k - 1] * (1 + g.x) / k\n    return y\nNAME = lift(g.n)[-1] + lift(g.m + 1).sum()",
     "v, w, s = np.ones(g.n + 1), np.zeros(g.n + 1), 0.0\nfor i in range(g.n + 1):\n    v[i] = g.x**i\n"
     "    w[i] = i - 1\n    s += g.x\nNAME = v @ w + s",
     "L = [1.0]\nfor i in range(g.m):\n    L.append(g.x * i)\nNAME = sum(L)",
     "v = np.zeros(g.m + 3)\nfor i in range(g.m):\n    v[i] = g.x\nNAME = v.sum()",
     "v = np.zeros(g.m, int)\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = v.sum() * 1.0",
     "v = np.zeros(g.m)\nw = v\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = w.sum() * 1.0",
-    "v = np.zeros(g.m + 1)\nfor i in range(g.m):\n    v[i + 1] = v[i] + g.x\nNAME = v.sum() * 1.0",
 ]
 LISTS = "arange", "linspace", "[g.x", "max(math"  # of so many numbers, which a workbook has as many of as now
 OTHER: list[dict[str, Any]] = [
@@ -109,7 +122,7 @@ def recorded(sheet: cells.Worksheet, **options: Any) -> Recording:
     return record({**names, "__file__": sheet.path}, **options)
 
 
-@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 4)])
+@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 13)])
 def test_a_page_takes_as_many_turns_as_its_inputs_say(
     every: Sequence[str], followed: int, blank: Page, tmp_path: Path
 ) -> None:

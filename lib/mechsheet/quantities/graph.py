@@ -235,8 +235,8 @@ class Graph(Lengths):
 
     def iterated(self, loop: Loop, number: int, turns: Node) -> Node:
         """What a loop makes of one of its numbers; the ``turns`` one after the other give it too, while they do."""
-        key = ("iterated", loop, number)
-        return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, turns.stretches)
+        key, stretches = ("iterated", loop, number), turns.stretches or loop.initial[number].stretches
+        return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, stretches)
 
     def rows(self, count: Node) -> Node:
         """The numbers 0, 1, 2 .. of so many rows."""

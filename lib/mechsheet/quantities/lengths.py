@@ -111,7 +111,7 @@ class Lengths(ABC):
         elif node.op == "at":  # as many as the places are
             parts = [(node.args[1], axis)]
         elif node.op in ("state", "iterated"):  # which is as it was at first
-            parts = [(node.args[0] if node.op == "state" else node.args[2], axis)]
+            parts = [(node.args[0] if node.op == "state" else node.args[0].initial[node.args[1]], axis)]
         elif node.op == "found":
             parts = [(part, axis) for part in node.args[0].residuals if part.shape == node.shape]
         elif node.op == "reduce":

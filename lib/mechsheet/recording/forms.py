@@ -112,11 +112,16 @@ def as_choice(node: ast.Match) -> ast.If | None:
     return ast.fix_missing_locations(ast.copy_location(choice, node)) if isinstance(choice, ast.If) else None
 
 
+TURNS = "recorded turns"  # name of what a loop goes through that is known to be counted
+
+
 def is_counted(items: ast.expr) -> bool:
     """Whether a loop has so many turns as something says."""
     match items:
         case ast.Call(ast.Name("range"), [_, *_] as ends, []):
             return not all(isinstance(end, ast.Constant) for end in ends)
+        case ast.Name(name):
+            return name.startswith(TURNS)
     return False
 
 

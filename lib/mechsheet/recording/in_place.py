@@ -3,12 +3,13 @@
 import operator
 import weakref
 from collections.abc import Callable
+from functools import reduce
 from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice
-from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.arithmetic import choice, is_whole
+from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
@@ -32,18 +33,27 @@ def put(array: Any, key: Any, value: Any) -> Any:
     graph.gone.append(weakref.ref(owner(array)))
     old, new = lift(graph, array), lift(graph, value)
     if not has_quantity([key]):
-        old = _of_now(graph, old)
+        old = of_now(old)
     new = new.astype(int) if old.dtype.kind in "iu" else new
-    chosen = _where(old, key, new)
+    chosen = _at(old, places, new) if (places := _by_places(old, key)) else _where(old, key, new)
     return joined([old, new], _placed, plain(key)) if chosen is None else chosen
 
 
-def _of_now(graph: Graph, old: Quantity) -> Quantity:
+def placed(array: Any, key: Any, value: Any) -> Any:
+    """The same in a turn that may be taken once more: what was there before stays as it is."""
+    if not isinstance(array, np.ndarray):
+        return put(array, key, value)
+    graph = current.get()
+    graph.gone.append(weakref.ref(array))
+    return put(lift(graph, array), key, value)
+
+
+def of_now(old: Quantity, always: bool = False) -> Quantity:
     """The array in its present length, where Python has taken what this rests on as it is now, as a loop does."""
     if isinstance(old, Selected):
         return old
-    own = [*old.parts]
-    parts = [known for part in own if (known := _at_length(graph, part)) is not None]
+    graph, own = old.graph, [*old.parts]
+    parts = [known for part in own if (known := _at_length(graph, part, always)) is not None]
     if len(parts) < len(own):
         return old
     for part in own:
@@ -51,7 +61,7 @@ def _of_now(graph: Graph, old: Quantity) -> Quantity:
     return Quantity(graph, *parts)
 
 
-def _at_length(graph: Graph, node: Node) -> Node | None:
+def _at_length(graph: Graph, node: Node, always: bool) -> Node | None:
     """An array of one value, and what has been set in it, in a length that Python has seen; None of anything else."""
     if not node.stretches:
         return node
@@ -60,20 +70,20 @@ def _at_length(graph: Graph, node: Node) -> Node | None:
         while one.op == "like":
             one = one.args[0]
         begins = (n for n in bottom_up([node], ()) if n.stretches and not any(part.stretches for part in n.operands))
-        seen = one.size == 1 and all(n.op == "rows" and _seen(graph, n.args[0]) for n in begins)
+        seen = one.size == 1 and all(n.op == "rows" and (always or _seen(graph, n.args[0])) for n in begins)
         return graph.take(one, np.zeros(node.shape, int)) if seen else None
     if node.op != "join":
         return None
     sources, which, inside, moved = node.args
     starts = np.cumsum([0, *(source.size for source in sources)])
-    parts = [part for source in sources if (part := _at_length(graph, source)) is not None]
+    parts = [part for source in sources if (part := _at_length(graph, source, always)) is not None]
     return graph.join(parts, starts[which] + inside, moved) if len(parts) == len(sources) else None
 
 
 def _seen(graph: Graph, count: Node) -> bool:
     """Whether a number rests on nothing but what Python has looked at."""
     same = graph.same(count)
-    if count in graph.fixed or same in graph.looked or same in graph.numbered:
+    if count in graph.fixed or same in graph.looked:
         return True
     return count.op in ELEMENTWISE and all(_seen(graph, operand) for operand in count.operands)
 
@@ -95,6 +105,44 @@ def _where(old: Quantity, key: Any, new: Quantity) -> Quantity | None:
         return None
     set_to: Quantity = choice(graph, key, new, old)
     return set_to
+
+
+def _by_places(old: Quantity, key: Any) -> list[Any]:
+    """The place along each axis of which a quantity tells, or that any array of as many rows has; or that of all."""
+    parts = key if isinstance(key, tuple) else (key,)
+    every = [*parts, *[slice(None)] * (old.ndim - len(parts))]
+    told = [part for part in every if isinstance(part, Quantity)]
+    if isinstance(old, Selected) or old.dtype.kind not in "iufc" or len(every) > old.ndim or old.graph.thin > 1:
+        return []
+    if not (told or (old.graph.draws and any(part.stretches for part in old.parts))):
+        return []
+    places = all(part.single and part.dtype != bool and is_whole(part) for part in told)
+    others = all(type(part) is int or part == slice(None) for part in every if not isinstance(part, Quantity))
+    return every if places and others and any(type(part) is not slice for part in every) else []
+
+
+def _at(old: Quantity, places: list[Any], new: Quantity) -> Quantity | None:
+    """The array in which what stands at some places is set; None where there is none, or another number of them."""
+    graph, axes = old.graph, range(old.ndim)
+    of = {axis: place for axis, place in enumerate(places) if type(place) is not slice}
+    kept = tuple(slice(None) if type(place) is slice else None for place in places)
+    if new.ndim not in (0, old.ndim - len(of)):
+        return None
+    is_set, exists = [], []
+    for axis, place in of.items():
+        count = old.count(axis)
+        rows = Quantity(graph, graph.rows(count.re)) if isinstance(count, Quantity) else np.arange(count)
+        place = choice(graph, place < 0, place + count, place)
+        exists.append((place >= 0) & (place < count))
+        is_set.append(lift(graph, rows == place)[tuple(slice(None) if k == axis else None for k in axes)])
+    there = lift(graph, reduce(operator.and_, exists))
+    if not there.value:
+        return None
+    value = new[kept] if new.ndim else new
+    if np.broadcast_shapes(value.extent, old.extent) != old.extent:
+        return None
+    set_to: Quantity = choice(graph, reduce(operator.and_, is_set), value, old)
+    return choice(graph, there, set_to, np.nan)  # type: ignore[no-any-return]
 
 
 def part_of(array: Any, key: Callable[[], Any]) -> Any:
@@ -147,5 +195,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 
 
 CALLS: dict[str, Any] = {
-    "put": put, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled, "part": part,
+    "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
+    "part": part,
 }  # fmt: skip

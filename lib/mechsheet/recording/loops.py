@@ -15,6 +15,7 @@ from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.node import Loop, Node, free_of
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
+from mechsheet.recording.in_place import of_now
 
 
 def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *state: Any) -> Any:
@@ -43,6 +44,7 @@ class Turns:
 
     def __init__(self, ends: tuple[Any, ...], start: Any, step: int, count: Quantity) -> None:
         self.ends, self.start, self.step, self.count = ends, start, step, count
+        self.sets = False  # whether elements of arrays
 
     def of(self, number: Any) -> Any:
         return (number if self.step == 1 else number * self.step) + self.start
@@ -69,6 +71,13 @@ def counted(*ends: Any) -> Any:
     if distance is None or not (distance.single and is_whole(distance) and type(step) is int and step):
         return range(*ends)
     return Turns(ends, start, step, distance if step == 1 else -(-distance // step))
+
+
+def setting(items: Any) -> bool:
+    """Whether a loop that sets elements of arrays has so many turns as the inputs say."""
+    if isinstance(items, Turns):
+        items.sets = True
+    return isinstance(items, Turns)
 
 
 def over_all(kind: str, f: Callable[[Any], Any], turns: Turns) -> Any:
@@ -111,13 +120,14 @@ def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> 
 def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any, ...]) -> Any:
     """What a loop gives of which the inputs say how many turns it takes at most; nothing changes where that is none."""
     graph, some = turns.count.graph, turns.count > 0
-    looked, state = dict(graph.looked), first
+    looked = dict(graph.looked)
+    state = tuple(of_now(x, always=True) if isinstance(x, Quantity) else x for x in first)
     for number in range(int(turns.count.value)):
         ends, *after = turn(*state[:item], turns.of(number), *state[item + 1 :])
         state = tuple(after)
         if ends | turns.end(number):
             break
-    if state is first:
+    if not some.value:
         graph.see((~some).re)
         return first
     begin = (*first[:item], turns.of(0), *first[item + 1 :])
@@ -232,8 +242,11 @@ def _in_turns(
 ) -> tuple[Any, list[Quantity]] | None:
     """Whether a loop has ended after twice as many turns as it takes now and some more, and its state then.
 
-    A turn behind its end changes nothing. None where that would take too many operations.
+    A turn behind its end changes nothing. None where that would take too many operations, as of an array of which each
+    turn sets an element.
     """
+    if isinstance(items, Turns) and items.sets:
+        return None
     graph, state = begin[0].graph, begin
     now, work, graph.looked = graph.looked, graph.work, {}
     ended, number, count = lift(graph, False), 0, None
@@ -279,4 +292,10 @@ def all_of(function: Any, *parts: Any, **named: Any) -> Any:
     return list(items) if function in (enumerate, zip) and all(isinstance(part, Sized) for part in parts) else items
 
 
-CALLS: dict[str, Any] = {"known": known, "iterated": iterated, "all_of": all_of, "counted": counted}
+CALLS: dict[str, Any] = {
+    "known": known,
+    "iterated": iterated,
+    "all_of": all_of,
+    "counted": counted,
+    "setting": setting,
+}

@@ -13,6 +13,7 @@ from types import CodeType, FunctionType
 from typing import Any
 
 from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row, raised, rows_checked
+from mechsheet.recording.by_turn import by_turn
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -178,8 +179,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_Assign(self, node: ast.Assign) -> Any:
         if sets_beside(node):
             lines = [ast.copy_location(line, node) for line in one_by_one(node.targets, node.value)]
-            new = [self.visit(line) for line in lines]
-            return [line for one in new for line in (one if isinstance(one, tuple | list) else (one,))]
+            return [new for line in lines for new in _lines(self.visit(line))]
         self.generic_visit(node)
         match node.targets:
             case [ast.Subscript(ast.Name(name), key)]:
@@ -243,12 +243,14 @@ class _Rewriting(ast.NodeTransformer):
                 return [self.generic_visit(line) for line in sums or [node]]
         if node.orelse and only_bind(node.body, *_ENDS):
             left = [*looking(node, node.orelse), unbound_left(node)]
-            return [line for one in map(self.visit, left) for line in (one if isinstance(one, list) else [one])]
+            return [new for line in left for new in _lines(self.visit(line))]
         return self._repeated(node, node.target.id, gone_through(node.iter), node.body)
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
         """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
         if node.orelse or is_of_the_whole(items) or not only_bind(body, *_ENDS):
+            if isinstance(node, ast.For) and not node.orelse and (either := by_turn(node)):
+                return [new for line in either for new in _lines(self.visit(line))]
             self.generic_visit(node)
             return node
         names = sorted({name for line in body for name in bound(line)} | ({item} if item else set()))
@@ -300,6 +302,10 @@ class _Rewriting(ast.NodeTransformer):
         return node
 
     visit_TryStar = visit_With = visit_Try
+
+
+def _lines(lines: Any) -> list[ast.stmt]:
+    return [*lines] if isinstance(lines, list | tuple) else [lines]
 
 
 def _unbound(name: str, node: ast.stmt) -> ast.stmt:
