@@ -52,6 +52,7 @@ all_ok = of_all("stress")
 way = check(f"{worst}, {'pull' if g.cases[0].F > 0 else 'push'}, {g.side}", sigma.max(), g.steel.R_e, "MPa")
 picture = Drawing().link(0j, 1 + 0j, g.cases[0].name).force(1 + 0j, 1j, f"{worst}: most")
 slight = check(f"area within {g.A:.3g} m²", g.A, 1.0)
+signed = check(f"{g.A / mm**2 - 150:+.1f} mm² of {4e4 * g.A / mm**2:,.0f}, {-12345.67 * g.n:+,.2f}", g.A, 1.0)
 """
 OTHERS: list[dict[str, Any]] = [
     {},
@@ -65,14 +66,14 @@ def sheet(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("sheet") / "names.py"
     text = written(SETUP, GIVEN, LINES, "Names")
     path.write_text(
-        text.replace("    return sigma", "    typeset(*each, all_ok, way, slight, picture)\n    return sigma")
+        text.replace("    return sigma", "    typeset(*each, all_ok, way, slight, signed, picture)\n    return sigma")
     )
     return path
 
 
 def verdicts(path: Path, given: dict[str, Any]) -> dict[str, str]:
     """Those of the worksheet for some inputs, by the names of the checks."""
-    found = checks_of(evaluate(path, ("each", "all_ok", "way", "slight"), **given))
+    found = checks_of(evaluate(path, ("each", "all_ok", "way", "slight", "signed"), **given))
     return {check.name: "PASS" if check.passed else "FAIL" for check in found}
 
 

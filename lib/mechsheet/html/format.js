@@ -83,8 +83,15 @@ function significant(x, digits) {
   return sign + trimmed(`${mantissa[0]}.${mantissa.slice(1)}`) + exponent(power, 2);
 }
 
-// A number as Python's format writes it: "d" a whole one, "r" as many digits as it takes, ".4g", ".2f" and ".3e".
+// A number as Python's format writes it: "d" a whole one, "r" as many digits as it takes, ".4g", ".2f" and ".3e"; behind
+// "+" with either sign, behind "," with a comma after each thousand.
 function formatted(x, spec) {
+  const [, sign, comma, rest] = spec.match(/^(\+?)(,?)(.*)$/), text = unsigned(x, rest);
+  const split = comma ? text.replace(/\d+/, whole => whole.replace(/\d(?=(\d{3})+$)/g, "$&,")) : text;
+  return (text.startsWith("-") ? "" : sign) + split;
+}
+
+function unsigned(x, spec) {
   if (spec === "d") return String(x);
   if (!Number.isFinite(x)) return x !== x ? "nan" : x < 0 ? "-inf" : "inf";
   const digits = Number(spec.slice(1, -1)), sign = x < 0 || Object.is(x, -0) ? "-" : "";

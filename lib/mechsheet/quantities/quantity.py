@@ -161,7 +161,7 @@ class Quantity(NDArrayOperatorsMixin):
     def __format__(self, spec: str) -> str:
         """Its text, for Python to look at; of a number the same while nothing but rounding changes it."""
         value = self.value.item() if self.value.size == 1 else self.value
-        value = int(value) if spec == "d" and isinstance(value, float) else value  # a whole number to Python
+        value = int(value) if spec.endswith("d") and isinstance(value, float) else value  # a whole number to Python
         text: str = value.__format__(spec)
         off = abs(value) * numbers.ROUNDING if isinstance(value, float) else 0.0
         if 0 < off < math.inf and all(x.__format__(spec) == text for x in (value - off, value + off)):

@@ -13,8 +13,8 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
-_FORMAT = re.compile(r"\.\d{1,2}[efg]|d|")  # which a reader writes too
-_SHORT = re.compile(r"(\.\d{1,2})?([efg%])")
+_FORMAT = re.compile(r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|")  # which a reader writes too
+_SHORT = re.compile(r"(\+?,?)(\.\d{1,2})?([efg%])")
 
 
 class Number(NamedTuple):
@@ -26,7 +26,7 @@ class Number(NamedTuple):
 
     def now(self) -> str:
         value = self.value.re.value.item()
-        text: str = (int(value) if self.spec == "d" else value).__format__(self.spec)
+        text: str = (int(value) if self.spec.endswith("d") else value).__format__(self.spec)
         return reduce(lambda told, pair: told.replace(*pair), self.instead, text)
 
 
@@ -236,10 +236,11 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
         options, at = place(value)
         value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
     elif isinstance(value, Quantity) and (short := _SHORT.fullmatch(spec)):
-        digits, kind = short[1] or ".6", short[2]
-        value, spec, end = (value * 100, f"{digits}f", kind) if kind == "%" else (value, digits + kind, "")
-    elif isinstance(value, Quantity) and not spec and is_whole(value):
-        spec = "d"
+        begin, digits, kind = short[1], short[2] or ".6", short[3]
+        value, kind, end = (value * 100, "f", "%") if kind == "%" else (value, kind, "")
+        spec = begin + digits + kind
+    elif isinstance(value, Quantity) and spec in ("", "+", ",", "+,") and is_whole(value):
+        spec += "d"
     followed = _is_followed(value, spec)
     yield Number(value, spec) if followed and isinstance(value, Quantity) else value if followed else f"{value:{spec}}"
     yield end

@@ -8,7 +8,7 @@ from mechsheet.quantities.written import Either, Number, OneOf, Piece, Written
 from mechsheet.workbook.cell_formula import written
 from mechsheet.workbook.content import quoted
 
-_DECIMALS = re.compile(r"d|\.(\d{1,2})f")  # of a number that a cell writes as Python does
+_DECIMALS = re.compile(r"(\+?)(,?)(?:d|\.(\d{1,2})f)")  # of a number that a cell writes as Python does
 _UNKNOWN = '"…"'
 
 
@@ -26,7 +26,9 @@ def text_formula(text: Written, reference: Callable[[Node], str], typed: Callabl
             case Number(value, spec, instead):
                 cell, digits = reference(value.re), _DECIMALS.fullmatch(spec)
                 if digits and not instead:
-                    return known(f"FIXED({cell},{digits[1] or 0},TRUE)")
+                    sign, comma, decimals = digits.groups()
+                    fixed = f"FIXED({cell},{decimals or 0},{'FALSE' if comma else 'TRUE'})"
+                    return known(f'IF(LEFT({fixed})="-","","+")&{fixed}' if sign else fixed)
                 return known(f"IF({cell}={written(value.re.value.item())},{quoted(part.now())},{_UNKNOWN})")
             case Either(holds, then, otherwise):
                 return known(f"IF({reference(holds.re)},{whole(then)},{whole(otherwise)})")
