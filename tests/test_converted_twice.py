@@ -72,6 +72,9 @@ TEMPERATURES = [
     "x = g.t  # [K] temperature",
     "x = np.array([g.t, g.dT])  # [K] temperatures",
     "c = check('x', g.T, 373.15 * K, '°C')",
+    "c = check('x', g.t + 273.15, 373.15, '°C')",
+    "c = check('x', g.t + 273.15 + g.z * g.dT * np.exp(-g.z), 373.15, '°C')",
+    "y = g.z * g.dT * np.exp(-g.z)  # [K] rise\nx = g.T + y  # [°C] temperature",
 ]
 RIGHT_TEMPERATURES = [
     "x = g.T  # [K] temperature\ny = g.dT  # [°C] difference",
@@ -84,9 +87,12 @@ RIGHT_TEMPERATURES = [
     "x = g.T - 273.15  # [°C] over 0 °C",
     "x = -273.15 + g.T  # [°C] over 0 °C",
     "x = g.T - 293.15  # [°C] over 20 °C",
+    "x = -293.15 + g.T  # [°C] over 20 °C",
     "x = g.t + 273.15  # [K] temperature",
     "x = celsius(120) - celsius(20) + 5 * degC  # [K] rise",
     "x = g.t - g.dT  # [K] difference",
+    "x = g.t + 273.15 + g.z * g.dT * np.exp(-g.z)  # [K] temperature",
+    "x = g.t + g.z * g.dT * np.exp(-g.z)  # [°C] temperature",
     "x = g.z * g.dT + 20 * degC  # [K] rise",
     "c = check('x', g.T, 373.15 * K, 'K')",
 ]
@@ -108,6 +114,13 @@ def test_an_angle_that_is_converted_twice_is_told(lines: str, tmp_path: Path) ->
 def test_a_temperature_in_the_unit_of_a_difference_is_told(lines: str, tmp_path: Path) -> None:
     (mistake,) = told(tmp_path, lines)
     assert "write it in [" in mistake and "celsius(0)" in mistake and "x" in mistake
+
+
+@pytest.mark.parametrize("added", ["", " + g.z * g.dT * np.exp(-g.z)"])
+def test_kelvins_by_a_typed_number_are_no_degrees(added: str, tmp_path: Path) -> None:
+    """40 °C + 273.15 had been shown as 313.15 °C, and so had checks."""
+    (mistake,) = told(tmp_path, f"x = g.t + 273.15{added}  # [°C] winding")
+    assert "unit [°C] is of a difference: write a temperature in [K]" in mistake
 
 
 @pytest.mark.parametrize("lines", [*RIGHT_ANGLES, *RIGHT_TEMPERATURES])

@@ -9,6 +9,7 @@ from mechsheet.quantities.node import Node
 from mechsheet.recording.dimension_rules import Reader
 from mechsheet.recording.pinpoint import Mistake
 from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.misread import ZERO
 from mechsheet.worksheet.misread import temperatures as written
 
 _FIRST = ("abs", "max", "min", "where", "take", "at", "join", "round", "floor", "like")  # of these operands are alike
@@ -53,12 +54,18 @@ def _taken(reader: Reader, node: Node, unit: str, line: Formula | None, deep: in
         return _taken(reader, operand, unit, line, deep - 1) if deep else None
 
     match node.op:
+        case "constant" if unit == "K" and node.size == 1 and abs(node.value.item()) == ZERO:
+            return float(np.sign(node.value.item()))
         case "neg":
             return None if (a := of(node.args[0])) is None else -a
         case "add" | "sub":
             a, b = map(of, node.args)
             if node.op == "add" and unit == "K":  # what is added to a temperature is a difference
-                a, b = (0.0 if _is_given(x) else n for x, n in zip(node.args, (a, b), strict=True))
+                known = a, b
+                a, b = (
+                    0.0 if n is None and (_is_given(x) or (1.0 in known and x.op != "constant")) else n
+                    for x, n in zip(node.args, known, strict=True)
+                )
             return None if a is None or b is None else a + b if node.op == "add" else a - b
         case "mul" | "div":
             (a, factor), (b, other) = ((of(x), _plain(x)) for x in node.args)

@@ -22,6 +22,7 @@ def misread(unit: str, typed: str, expression: ast.expr) -> str:
     return ""
 
 
+ZERO = 273.15  # 0 °C in K: who adds it to what is in °C has a temperature
 _TO_DEGREES = ("degrees", "rad2deg")
 
 
@@ -29,6 +30,8 @@ def temperatures(expression: ast.expr) -> int:
     """How many temperatures an expression adds, less those that it subtracts: one where it is a temperature itself."""
     match expression:
         case ast.Call(ast.Name("celsius") | ast.Attribute(attr="celsius")):
+            return 1
+        case ast.Constant(value) if value == ZERO:
             return 1
         case ast.BinOp(left, ast.Add(), right):
             return temperatures(left) + temperatures(right)
