@@ -133,6 +133,7 @@ SEVERAL = {
     "three": "lambda u, v, w: (u + v + w - 6, u * v * w - 6 * g.a, u - w), u=(0, 4), v=(0, 6), w=(0, 4)",
     "no target": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(g.F > 2, g.F, np.nan), 0), u=(0, 9), v=(0, 9)",
     "targets of some": "lambda u, v: (u + v, v - g.a * u), equals=(np.where(x > 2, x, np.nan), 0), u=1.0, v=1.0",
+    "a guess beside an interval": "lambda u, v: (u + v - 2 * g.F, v - u - g.a), u=(0, 9), v=1.0",
     "at an end": "lambda u, v: (u - 1, v - g.a), u=(0, 1), v=(0, 2)",
     "one equation twice": "lambda u, v: (u + v - g.F, 2 * g.F - 2 * u - 2 * v), u=1.0, v=1.0",
     "a curve twice": "lambda u, v: (u**2 + v**2 - g.F, 3 * u**2 + 3 * v**2 - 3 * g.F), u=1.0, v=0.9",

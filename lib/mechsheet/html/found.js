@@ -107,8 +107,8 @@ function rowsOfSeveral(words, verdicts, reasons, isAlone) {
     rows.push([`solutions seen by ${where}`, [...listed, ...(more > 0 ? [`and ${more} more`] : [])].join("; ") || "none"]);
   }
   const searched = words.names.map((name, k) => {
-    const ends = verdicts.flatMap(v => v.asked[k]);
-    return `${name} ${words.guessed ? "from" : "in"} ${extent(ends, words.units[k])}`;
+    const ends = verdicts.flatMap(v => v.asked[k]), isGuessed = verdicts.every(v => new Set([v.asked[k]].flat()).size === 1);
+    return `${name} ${isGuessed ? "from" : "in"} ${extent(ends, words.units[k])}`;
   });
   return [...rows, ["searched", searched.join("; ")]];
 }
