@@ -186,6 +186,7 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
         ("M_S = M(phi)", "M_S = M(phi) * k\n    k = 2", "k is defined below its use: move its line up"),
         ("M_S = M(phi)", "M_S = M(phi) * _k\n    _k = 2", ": _k is defined below its use: move its line up"),
         ("M_S = M(phi)", "def _f(x): return x\n    M_S = _f()", ": _f() missing 1 required positional argument"),
+        ("M_S = M(phi)", "M_S = M(phi, g.F)", "takes 1 positional argument but 2 were given\n"),
         ("M_S = M(phi)", "drawn(M)\n    M_S = M(phi)", "the name drawn is not defined in any cell"),
         ("M_S = M(phi)", "k = 1,5\n    M_S = k * g.F", "a decimal number has a point, not a comma"),
         ("M_S = M(phi)", "M_S = 1,5 * g.F", "M_S = 1, 5 * g.F is several values: a decimal number has a point"),

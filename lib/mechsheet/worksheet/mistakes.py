@@ -160,6 +160,8 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if hint == _SEVERAL and (name := _list(error, said, text)):
         done = "multiplied" if "multiply" in said else "computed"
         hint = f"{name} is a list: np.array([..]) is {done} element by element"
+    elif hint == _SEVERAL and "positional" in said and not re.search(r"\d,\d", text):
+        hint = ""  # too many arguments of another kind
     elif hint == _SEVERAL and (typed := _TYPED.search(text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
     return said + (f" ({hint})" if hint else "")
