@@ -10,7 +10,8 @@ from as_script import as_script
 from openpyxl import load_workbook
 from own_worksheet import own
 
-from mechsheet.document.parts import Control, Line, Section, Text, contents, values
+from mechsheet.document.parts import Control, Line, Section, Text, contents, texts, values
+from mechsheet.html import markdown
 from mechsheet.html.write import page
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, Summary
@@ -345,3 +346,17 @@ def test_what_is_told_by_its_name_has_one_of_its_own(lines, says, tmp_path):
         with pytest.raises(SheetError) as error:
             of()
         assert str(error.value) == says
+
+
+def test_code_below_a_heading_stays_code():
+    """Its first line is indented as the others are."""
+    below = [
+        part.markdown for part in texts("""
+        ## 1 How
+
+            python run
+
+        tells it.
+        """) if isinstance(part, Text)
+    ]  # fmt: skip
+    assert below == ["    python run\n\ntells it."] and "<code>python run" in markdown.html(below[0])

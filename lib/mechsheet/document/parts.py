@@ -21,6 +21,7 @@ from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
 from mechsheet.worksheet.typeset import Typeset
 
+_BLANK = re.compile(r"\A(?:[ \t]*\n)+")  # lines at the beginning
 _HEADING = re.compile(r"^(#+) +(.*\S)\s*$", re.MULTILINE)
 _OF_PAGE = {"ask", "export", "save_scene"}  # what they show is there to be pressed or filled in
 
@@ -256,7 +257,7 @@ def texts(markdown: str) -> Iterator[Section | Text]:
     for marks, title, text in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         yield Section(len(marks), title)
         if text.strip():
-            yield Text(text.strip())
+            yield Text(_BLANK.sub("", text).rstrip())  # its first line may be indented, as code is
 
 
 def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:
