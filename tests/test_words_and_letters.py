@@ -22,6 +22,7 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import symbol
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.deviation import Deviation
+from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.said import said
 from mechsheet.worksheet.symbol import Symbol, read
@@ -71,10 +72,21 @@ LETTERS = {
 def test_a_letter_has_its_index(name: str) -> None:
     base, index = LETTERS[name]
     assert read(name) == Symbol(base, index)
-    shown = f"<i>{base}</i>" + (f"<sub>{index}</sub>" if index else "")
-    assert as_written(name) == shown
+    slanted = base if len(base) > 1 or base in "ΛΩ" else f"<i>{base}</i>"  # neither words nor Greek capitals
+    assert as_written(name) == slanted + (f"<sub>{index}</sub>" if index else "")
     for written in (latex(read(name)), mathml(read(name))):
         assert "_1" not in written.replace("_{1}", "") and "\\_" not in written
+
+
+@pytest.mark.parametrize("name", ["Phi_t", "beta_phi", "side23", "R_m", "way", "dphi", "F_Delta", "Psi"])
+def test_a_symbol_looks_the_same_in_texts_and_formulas(name: str) -> None:
+    formula, text = mathml(read(name)), as_written(name)
+    slanted = re.findall(r"<mi>(\w)</mi>", formula)
+    assert re.findall("<i>(.+?)</i>", text) == slanted
+    drawn = Drawing().link(0j, 1 + 0j, name).svg()
+    assert re.findall('<tspan font-style="italic">(.+?)</tspan>', drawn) == re.findall(
+        r"<mi>(\w)</mi>", mathml(Symbol(read(name).base))
+    )
 
 
 def test_differences_of_greek_letters() -> None:

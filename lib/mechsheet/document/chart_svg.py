@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mechsheet.document.chart import Chart, Curve, Label, Mark, Sample, Stroke, told
 from mechsheet.document.markup import attribute, named
-from mechsheet.worksheet.symbol import Symbol
+from mechsheet.worksheet.symbol import Symbol, is_slanted
 
 _FONT = 13
 _MOVING = "#e0483c"
@@ -104,10 +104,10 @@ def _text(label: Label) -> str:
 @lru_cache(maxsize=1024)
 def _symbol(name: Symbol) -> str:
     """Inside of a ``<text>`` element: a symbol, its index lowered."""
-    text = f'{name.mark}<tspan font-style="italic">{name.base}</tspan>'
+    base = f'<tspan font-style="italic">{name.base}</tspan>' if is_slanted(name.base) else name.base
     # the last part, of no width, takes what follows back to the line
     index = f'<tspan dy="4" font-size="11">{name.index}</tspan><tspan dy="-4">\u200b</tspan>'
-    return text + (index if name.index else "")
+    return name.mark + base + (index if name.index else "")
 
 
 def _values(chart: Chart) -> dict[str, Any]:

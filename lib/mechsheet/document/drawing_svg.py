@@ -8,6 +8,7 @@ from mechsheet.document.labels import FONT, INDEX, Name, Text
 from mechsheet.document.layout import lay_out
 from mechsheet.document.picture import Group, Mark
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.symbol import is_slanted
 
 COLOURS = {"": "currentColor", "blue": "#3b82d0", "red": "#e0483c", "green": "#2c9c5c", "orange": "#cf7a17"}
 
@@ -60,7 +61,7 @@ def _text(text: Text) -> str:
 def _spans(name: Name) -> str:
     """A name: one letter slanted, its index lowered."""
     mark, base, index, rest = map(_escape, name)
-    if len(name.base) == 1 and name.base.isalpha():
+    if is_slanted(name.base):
         base = f'<tspan font-style="italic">{base}</tspan>'
     if index:
         index = f'<tspan dy="4" font-size="{INDEX}">{index}</tspan>'

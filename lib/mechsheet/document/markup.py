@@ -47,9 +47,16 @@ def as_written(name: str) -> str:
 
     >>> as_written("l_S")
     '<i>l</i><sub>S</sub>'
+    >>> as_written("beta_phi"), as_written("Phi_t"), as_written("side23")  # as in formulas
+    ('<i>β</i><sub><i>φ</i></sub>', 'Φ<sub>t</sub>', 'side<sub>23</sub>')
     """
     read = symbol.read(name)
-    return f"{read.mark}<i>{read.base}</i>" + (f"<sub>{read.index}</sub>" if read.index else "")
+    index = re.sub(f"[{symbol.LETTERS}]", lambda m: _letters(m[0]), read.index)
+    return read.mark + _letters(read.base) + (f"<sub>{index}</sub>" if index else "")
+
+
+def _letters(text: str) -> str:
+    return f"<i>{text}</i>" if symbol.is_slanted(text) else text
 
 
 def meant(meaning: str, known: Container[str] = ()) -> str:

@@ -308,7 +308,7 @@ function groupSVG({kind, tip, marks}, pins) {
 }
 
 function nameSVG({name, centre}) {
-  const [mark, base, lowered, rest] = name.map(escaped), slanted = name[1].length === 1 && /\p{L}/u.test(name[1]);
+  const [mark, base, lowered, rest] = name.map(escaped), slanted = /^[^\P{L}Α-Ω]$/u.test(name[1]);
   const index = lowered && `<tspan dy="4" font-size="11">${lowered}</tspan>`;
   const letter = slanted ? `<tspan font-style="italic">${base}</tspan>` : base;
   const after = rest && `<tspan dy="${index ? -4 : 0}">${rest}</tspan>`;

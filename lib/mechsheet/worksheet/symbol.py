@@ -36,6 +36,15 @@ class Symbol:
     mark: str = ""
 
 
+def is_slanted(text: str) -> bool:
+    """Whether print slants it: a letter, but no Greek capital, and no word.
+
+    >>> is_slanted("φ"), is_slanted("Φ"), is_slanted("side")
+    (True, False, False)
+    """
+    return len(text) == 1 and text.isalpha() and not "Α" <= text <= "Ω"
+
+
 @cache
 def read(name: str) -> Symbol:
     """Symbol of a name; one word of small letters stays whole, as does one of five capitals or more.
