@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 import pytest
 from own_worksheet import written
-from test_html_page import read
+from test_html_page import opened, read
 
 from mechsheet.html import write
 from mechsheet.worksheet import cells, inputs
@@ -96,3 +96,38 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         blank.wait_for_selector("body[data-ready]")
         shown.append(read(blank)["texts"])
     assert shown[0] == shown[1] and len(shown[0]) >= len(SAID) + len(PUT_TOGETHER)
+
+
+JUDGED = """limit = np.divide(1.0, g.F) if g.F >= 0 else np.sqrt(g.F)  # [-] limit
+y = np.sqrt(g.x)  # [-] y
+judged = check("y", y, limit, "-")
+typeset(judged)"""
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("F=0", "its limit is infinite"),
+        ("F=-1", "its limit does not exist"),
+        ("x=-1", "its value does not exist"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_why_a_check_is_not_evaluated_is_that_of_the_worksheet(
+    given: str, told: str, blank: "Page", tmp_path: Path
+) -> None:
+    """A quantity below an infinite limit had passed on the page alone, and of one without a number nothing was said."""
+    path, to = tmp_path / "judged.py", tmp_path / "judged.html"
+    path.write_text(
+        written(
+            SETUP.replace("import ask", "import ask, check, typeset"),
+            "F: float = 0.5  # [-] F\nx: float = 1.0  # [-] x",
+            JUDGED,
+        )
+    )
+    sheet = cells.load(path)
+    to.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    changed = inputs.build(sheet.inputs, dict([given.split("=")]))
+    assert sheet.run(["judged"], {"g": changed})["judged"].reason == told
+    shown = opened(blank, to, given).locator(".ms-check").last
+    assert shown.locator(".ms-badge").inner_text() == "not evaluated" and told in shown.inner_text()

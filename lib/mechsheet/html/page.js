@@ -145,8 +145,9 @@ function judged(spec, results) {
   const residual = (sum ? all.reduce((a, b) => a + b, 0) : Math[spec.least ? "min" : "max"](...all)) / spec.factor;
   const open = reason => ({kind: "OPEN", word: "not evaluated", compared: "", reason});
   if (!all.length) return open("there is nothing to check");
-  if (lost) return open(`${lost} of ${all.length} values do not exist`);
-  if (limit !== limit) return open("there is no limit");
+  if (lost) return open(all.length > 1 ? `${lost} of ${all.length} values do not exist` : "its value does not exist");
+  if (limit !== limit) return open("its limit does not exist");
+  if (!isFinite(limit)) return open("its limit is infinite");
   const passed = spec.least ? residual >= limit : residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
   const [a, b] = compared(residual, limit, agrees).map(inWords);
   const sign = passed ? (spec.least ? "≥" : "≤") : spec.least ? "&lt;" : "&gt;";
@@ -310,7 +311,7 @@ function say(changed, errors) {
   const text = errors.size
     ? `not computed: ${[...errors.values()][0]}`
     : changed.size ? [`changed: ${names}`, ...lacking(state.results)].join("; ") : "as in the document";
-  bar.querySelector(".ms-state").textContent = [text, ...state.strange].join("; ");
+  bar.querySelector(".ms-state").innerHTML = inWords(escaped([text, ...state.strange].join("; ")));
   document.body.classList.toggle("ms-stopped", errors.size > 0);
   bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
   bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);

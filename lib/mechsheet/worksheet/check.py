@@ -246,12 +246,12 @@ def judged(
     if not sizes.size:
         reason = "there is nothing to check"
     elif lost:
-        reason = f"{lost} of {sizes.size} values do not exist"
+        reason = f"{lost} of {sizes.size} values do not exist" if sizes.size > 1 else "its value does not exist"
     elif not tells:
         compared, least = (numbers.significant(x / factor, 2) for x in (size, limit))
         reason = f"the limit, {least}, is more than a thousandth of what is compared, {compared}{numbers.suffix(unit)}"
-    elif np.isinf(limit):
-        reason = "its limit is infinite"
+    elif not np.isfinite(limit):
+        reason = "its limit does not exist" if np.isnan(limit) else "its limit is infinite"
     residual = np.nan if reason else float(np.min(sizes) if at_least else np.max(sizes)) / factor
     if size == 0 and residual > 0:
         reason = "what is compared is 0, and so is any part of it: without of= the limit is a number of its own"
