@@ -111,6 +111,21 @@ def test_a_long_table_goes_on_on_the_next_page_under_its_heading(browser: Browse
     page.close()
 
 
+def test_rows_side_by_side_stay_on_one_page_and_take_nothing_along(browser: Browser) -> None:
+    """Few of them at the foot of a page had no heads, and the caption had drawn the last rows of a table before it."""
+    rows = "".join(f"<tr><td>{n}</td></tr>" for n in range(25))
+    table = f"<table><thead><tr><th>x</th></tr></thead><tbody>{rows}</tbody></table>"
+    beside = f'<ms-rows style="--rows: 2; --each: 9em">{table}</ms-rows>'
+    body = f'<div class="ms-table"><div class="ms-caption">t</div>{beside}</div>'
+    page = browser.new_page()
+    page.set_content(f"<style>{javascript.runtime('page.css')}</style><main>{body}</main>")
+    page.emulate_media(media="print")
+    style = "e => [getComputedStyle(e).breakInside, getComputedStyle(e).breakBefore]"
+    assert page.locator("ms-rows").evaluate(style)[0] == "avoid"
+    assert page.locator(".ms-caption").evaluate(style)[1] == "auto"
+    page.close()
+
+
 def test_many_numbers_of_a_line_go_on_in_the_next_and_none_is_cut(hitch: Page) -> None:
     """At the width of a telephone too; a number stays with its power of ten and its unit in one line."""
     cut = "[...document.querySelectorAll('.ms-value')].filter(e => e.getBoundingClientRect().right > innerWidth).length"
