@@ -72,11 +72,11 @@ def verdict(checks_joint, checks_strength, cone, high_c, low_c, slope):
 
 @app.cell(hide_code=True)
 def section_1():
-    mo.md("""
+    mo.md(r"""
     ## 1 Input data
 
-    Lengths are those of the joint as it is drawn below. The gasket was pressed in a test with the force $F_G$ by
-    $x_G$; its force grows with the square of that.
+    Lengths are those of the joint as it is drawn below. The gasket was pressed in a test with the force $F_\mathrm{G}$
+    by $x_\mathrm{G}$; its force grows with the square of that.
     """)
     return
 
@@ -156,7 +156,8 @@ def scheme():
             edge = side * hole, side * flange
             drawn = drawn.polygon(box(edge[0], gasket, edge[1], half)).polygon(box(edge[0], -half, edge[1], -gasket))
             drawn = drawn.polygon(box(edge[0], -gasket, edge[1], gasket), colour="red")
-            drawn = drawn.force(edge[1] + 1j * half, 0.5j * F, "F_A").force(edge[1] - 1j * half, -0.5j * F)
+            drawn = drawn.arrow(edge[1] + 1j * half, 0.5j * F / lbf, "F_A", "lbf", "red")
+            drawn = drawn.arrow(edge[1] - 1j * half, -0.5j * F / lbf, "", "lbf", "red")
         drawn = drawn.polygon(box(-bolt, -half - 1.6 * head, bolt, half)).polygon(box(-seat, half, seat, half + head))
         drawn = drawn.polygon(box(-seat, -half - head, seat, -half))
         drawn = drawn.dimension(-flange - 1j * half, -flange + 1j * half, "l_K", 40)
@@ -179,7 +180,7 @@ def section_2():
     ## 2 Bolt and parts as springs
 
     The head and the nut give way as 0.4 to 0.5 diameters of the shank more would. The flanges are pressed in a cone
-    from each seat, which ends at their diameter $D_A$ where that is small.
+    from each seat, which ends at their diameter $D_\mathrm{A}$ where that is small.
     """)
     return
 
@@ -243,8 +244,8 @@ def section_4():
     mo.md(r"""
     ## 4 Load cases
 
-    Bolt force $F_S$ and compression $x$ of the gasket in every load case, by two equations: equilibrium, and the
-    stretch $u$ that tightening has left. Where $x$ is negative the joint is open by as much. The load acts at the
+    Bolt force $F_\mathrm{S}$ and compression $x$ of the gasket in every load case, by two equations: equilibrium, and
+    the stretch $u$ that tightening has left. Where $x$ is negative the joint is open by as much. The load acts at the
     seats.
 
     ### 4.1 Least preload
@@ -344,9 +345,9 @@ def section_5():
     mo.md(r"""
     ## 5 Joint under a growing load
 
-    With the least preload. The joint opens at the load $F_o$, which stretches the bolt alone by all of $u_0$; from
-    there on the bolt bears the load alone. Before, its force grows by the part $\Phi$ of the load, which is less the
-    stiffer the gasket is pressed.
+    With the least preload. The joint opens at the load $F_\mathrm{o}$, which stretches the bolt alone by all of $u_0$;
+    from there on the bolt bears the load alone. Before, its force grows by the part $\Phi$ of the load, which is less
+    the stiffer the gasket is pressed.
     """)
     return
 

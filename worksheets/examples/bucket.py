@@ -198,7 +198,7 @@ def scheme(A, B, C, L_BE, T_S, g):
         t, s = g.L_DT * exp(1j * (angle(e) - g.delta_T)), g.L_DS * exp(1j * (angle(e) - g.delta_S))
         links = Drawing(frame=[A, C, b, *T_S]).cylinder(A, b, "S", 0.9 * g.S_min)
         arms = links.link(C, b, "rocker").link(b, e, "link").plate([0, e, t], "bucket")
-        bucket = arms.hinge(b, "B").hinge(e, "E").mass(s, "G").text(t, "T")
+        bucket = arms.hinge(b, "B").hinge(e, "E").mass(s, "G").text(1.06 * t, "T")
         return bucket.support(A, "A").support(C, "C").support(0, "D", pi)
 
     still = scheme(g.S_min).faint() + scheme(g.S_max).faint() + Drawing().path(T_S)

@@ -103,10 +103,12 @@ const LOOKS = {
 
 // What an element tells under the pointer.
 const digits = x => significant(x, 4);
-const metres = x => `${digits(x)} m`;
-const amount = (x, unit) => (unit === "N" && Math.abs(x) >= 1000 ? `${digits(x / 1000)} kN` : `${digits(x)} ${unit}`);
-const distance = e => metres(sizeOf(minus(e.points[1], e.points[0])));
-const placeOf = e => `${digits(e.points[0][0])}, ${metres(e.points[0][1])}`;
+function amount(x, unit) {
+  if (unit === "N" && Math.abs(x) >= 1000) return `${digits(x / 1000)} kN`;
+  return unit === "m" && 0 < Math.abs(x) && Math.abs(x) < 0.1 ? `${digits(x * 1000)} mm` : `${digits(x)} ${unit}`;
+}
+const distance = e => amount(sizeOf(minus(e.points[1], e.points[0])), "m");
+const placeOf = e => `${digits(e.points[0][0])}, ${digits(e.points[0][1])} m`;
 const MEASURED = {
   link: distance, cylinder: distance, slot: distance, dimension: distance,
   slider: placeOf, hinge: placeOf, support: placeOf, mass: placeOf,

@@ -229,9 +229,11 @@ class Drawing(Shown):
 
 
 def quantity(value: float, unit: str) -> str:
-    """A value with its unit, as it is written in a drawing."""
+    """A value with its unit, as it is written in a drawing: small lengths in mm, large forces in kN."""
     if unit == "N" and abs(value) >= 1000:
         value, unit = value / 1000, "kN"
+    elif unit == "m" and 0 < abs(value) < 0.1:
+        value, unit = value * 1000, "mm"
     return f"{_digits(value)} {unit}"
 
 
@@ -248,7 +250,7 @@ def _place(P: complex) -> str:
 
 
 def _distance(A: complex, B: complex) -> str:
-    return f"{_digits(_length(B - A))} m"
+    return quantity(_length(B - A), "m")
 
 
 def _points(kind: str, points: ArrayLike, least: int = 1) -> tuple[complex, ...]:
