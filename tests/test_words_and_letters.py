@@ -15,6 +15,7 @@ from mechsheet.document.latex import symbol as latex
 from mechsheet.document.markup import as_written, in_words, limits, meant
 from mechsheet.document.names import function
 from mechsheet.html.follow import Follower
+from mechsheet.html.markdown import formula
 from mechsheet.html.mathml import symbol as mathml
 from mechsheet.html.values import html
 from mechsheet.quantities.graph import Graph
@@ -87,6 +88,17 @@ def test_a_symbol_looks_the_same_in_texts_and_formulas(name: str) -> None:
     assert re.findall('<tspan font-style="italic">(.+?)</tspan>', drawn) == re.findall(
         r"<mi>(\w)</mi>", mathml(Symbol(read(name).base))
     )
+
+
+@pytest.mark.parametrize("path", sorted(Path(__file__).parents[1].glob("worksheets/**/*.py")), ids=lambda p: p.stem)
+def test_indices_in_texts_of_the_worksheets_are_upright_as_in_their_lines(path: Path) -> None:
+    r"""A symbol is looked for by its look: ``$P_{gr}$`` is not that of the line ``P_gr``, ``$P_\mathrm{gr}$`` is."""
+    told = re.findall(r"(?<![$\\])\$(?!\$)([^$\n]+?)\$(?!\$)", path.read_text("utf-8"))
+    assert not [x for x in told if re.search(r"_\{[A-Za-z0-9,]*[A-Za-z][A-Za-z0-9,]*\}|_[A-Za-hl-z](?![A-Za-z])", x)]
+
+
+def test_a_symbol_in_a_text_is_that_of_a_line() -> None:
+    assert unescape(formula(r"\varphi_\mathrm{BD}")) == f"<math>{mathml(read('phi_BD'))}</math>"
 
 
 def test_differences_of_greek_letters() -> None:

@@ -163,10 +163,10 @@ def section_1():
     mo.md(r"""
     ## 1 Position
 
-    The loop of a dyad is $A + \ell_A e^{i\alpha} = B + \ell_B e^{i\beta}$; in the hitch each dyad hangs on the one
-    before. Newton and fsolve start from the angles to one digit after the point, as one reads them off a drawing, and
-    have the slopes of the loops in closed form; fsolve takes one position after the other, as a Find over a range does.
-    The velocity equations are integrated from the first position on.
+    The loop of a dyad is $A + \ell_\mathrm{A} e^{i\alpha} = B + \ell_\mathrm{B} e^{i\beta}$; in the hitch each dyad
+    hangs on the one before. Newton and fsolve start from the angles to one digit after the point, as one reads them off
+    a drawing, and have the slopes of the loops in closed form; fsolve takes one position after the other, as a Find
+    over a range does. The velocity equations are integrated from the first position on.
     """)
     return
 
@@ -285,11 +285,11 @@ def section_3():
     mo.md(r"""
     ## 3 Find
 
-    The three unknown lengths of the hitch, one after the other: $L_4$, $S_p$, $L_7$. All iterations solve the same
-    equations: `find` has them by the library's dyads, the others by closed forms without checks, with the slopes in
-    closed form too, and the last one by the formulas of the document, as a port from Mathcad has it.
-    In closed form the mechanism is taken from the other end: the wanted point is known, and the unknown length is its
-    distance from another known point; that must be thought out anew for every unknown.
+    The three unknown lengths of the hitch, one after the other: $L_4$, $S_\mathrm{p}$, $L_7$. All iterations solve the
+    same equations: `find` has them by the library's dyads, the others by closed forms without checks, with the slopes
+    in closed form too, and the last one by the formulas of the document, as a port from Mathcad has it. In closed form
+    the mechanism is taken from the other end: the wanted point is known, and the unknown length is its distance from
+    another known point; that must be thought out anew for every unknown.
 
     `find` does more for its time than the iterations: it samples the whole interval on both branches of assembly,
     reports every root with its bracket and residual, or why there is none, and whatever the guess. The iterations
@@ -347,8 +347,8 @@ def section_4():
     ## 4 Reactions
 
     From the same pins and the weight of the implement, all ways compute the same six reactions. The dense system holds
-    the 18 equations of the six bodies at each position; least squares add the equilibrium of the whole mechanism.
-    The second comparison has the hitch at $S_p$, where the mast is upright and the printed formulas divide by its
+    the 18 equations of the six bodies at each position; least squares add the equilibrium of the whole mechanism. The
+    second comparison has the hitch at $S_\mathrm{p}$, where the mast is upright and the printed formulas divide by its
     horizontal part, which is nothing but rounding. For a few positions one dense system is quicker than the library's
     checked functions, for many it takes many times as long.
     """)

@@ -143,11 +143,11 @@ def section_2():
     mo.md(r"""
     ## 2 Geometry
 
-    Points are complex numbers $x + iy$ from the rear axle. Each structural group of two links closes in two
-    ways; the last argument of `rrr` names the one meant: +1 puts the inner pin to the left of the line from the
-    first outer pin to the second. The inputs choose it, and the side of the tractor on which the implement is: a
-    machine seen from its other side has the other one everywhere, its abscissas and $\varphi_{BD}$ with the other sign
-    and $\varphi_{P6}$ from 180°.
+    Points are complex numbers $x + iy$ from the rear axle. Each structural group of two links closes in two ways; the
+    last argument of `rrr` names the one meant: +1 puts the inner pin to the left of the line from the first outer pin
+    to the second. The inputs choose it, and the side of the tractor on which the implement is: a machine seen from its
+    other side has the other one everywhere, its abscissas and $\varphi_\mathrm{BD}$ with the other sign and
+    $\varphi_\mathrm{P6}$ from 180°.
     """)
     return
 
@@ -199,7 +199,7 @@ def section_22():
     ### 2.2 Second structural group: lifting rod and lower link (4, 5)
 
     The length of the lifting rod $L_4$ is unknown; it must put the suspension axis $P_{56}$ at the height
-    $Y_{56\,min}$ when the cylinder is shortest.
+    $Y_\mathrm{56,min}$ when the cylinder is shortest.
     """)
     return
 
@@ -249,8 +249,8 @@ def section_23():
     mo.md(r"""
     ### 2.3 Third structural group: mast and upper link (6, 7)
 
-    The working stroke $S_p$ puts the suspension axis at its working height; the length of the upper link $L_7$
-    then sets the mast to the angle $\varphi_{P6}$.
+    The working stroke $S_\mathrm{p}$ puts the suspension axis at its working height; the length of the upper link $L_7$
+    then sets the mast to the angle $\varphi_\mathrm{P6}$.
     """)
     return
 
@@ -355,8 +355,8 @@ def section_25():
     mo.md(r"""
     ### 2.5 Centre of mass of the implement
 
-    $X_6, Y_6$ are given at work, in the axes of the tractor; turned back by the mast's angle there, $\varphi_6(S_p) =
-    \varphi_{P6}$, they stay with the mast.
+    $X_6, Y_6$ are given at work, in the axes of the tractor; turned back by the mast's angle there,
+    $\varphi_6(S_\mathrm{p}) = \varphi_\mathrm{P6}$, they stay with the mast.
     """)
     return
 
@@ -557,9 +557,9 @@ def section_4():
     mo.md(r"""
     ## 4 Lifting capacity
 
-    Where $I_{S6}$ is negative the implement sinks as the cylinder lengthens: the cylinder would have to pull. Force,
-    pressure and capacity are negative there; the hitch carries nothing. At $I_{S6} = 0$, a dead centre, the capacity
-    has no bound.
+    Where $I_\mathrm{S6}$ is negative the implement sinks as the cylinder lengthens: the cylinder would have to pull.
+    Force, pressure and capacity are negative there; the hitch carries nothing. At $I_\mathrm{S6} = 0$, a dead centre,
+    the capacity has no bound.
     """)
     return
 
@@ -599,7 +599,7 @@ def section_5():
     ### 5.1 Third group (6, 7)
 
     The equations $F_{67}$, $M_7$, $M_6$ leave rounding only. The document prints the last one with a plus before
-    $R_{56y}(X_{67} - X_{56})$; its numbers follow the minus.
+    $R_\mathrm{56y}(X_{67} - X_{56})$; its numbers follow the minus.
 
     The document's lengths $a_1$ to $e_3$ and its formulas for the components along x stand below each group. Its
     formulas for those along y divide by $d_1$, $b_2$, $d_2$, $b_3$ or $d_3$, which pass through zero: $d_1$ does so at
@@ -815,9 +815,10 @@ def section_6():
     mo.md(r"""
     ## 6 Steering stability
 
-    Moments about the rear axle give the load $R_a$ on the steered front wheels. At least a fifth of the whole weight
-    must stay on them. The printed formula for the greatest implement subtracts newtons from newton metres and keeps
-    the present implement's weight in the limit; the right one takes $R_a = 0.2\,(P + P_{msha} + P_{gr})$.
+    Moments about the rear axle give the load $R_\mathrm{a}$ on the steered front wheels. At least a fifth of the whole
+    weight must stay on them. The printed formula for the greatest implement subtracts newtons from newton metres and
+    keeps the present implement's weight in the limit; the right one takes $R_\mathrm{a} = 0.2\,(P + P_\mathrm{msha} +
+    P_\mathrm{gr})$.
     """)
     return
 
@@ -900,12 +901,12 @@ def results_6(GS6_lim, GS6_max, Ra, Rb, S, S_p, dRa, dRb):
 
 @app.cell(hide_code=True)
 def section_7():
-    mo.md("""
+    mo.md(r"""
     ## 7 Check by the instant centre
 
     The mast turns about the point where the lines of the lower link and of the upper link meet. Its transmission
-    numbers follow from the distances to that pole, whose abscissa from $O_5$ is $N_p / D_p$; multiplied out, the
-    check holds for parallel links too, where the pole lies at infinity.
+    numbers follow from the distances to that pole, whose abscissa from $O_5$ is $N_\mathrm{p} / D_\mathrm{p}$;
+    multiplied out, the check holds for parallel links too, where the pole lies at infinity.
     """)
     return
 

@@ -385,10 +385,10 @@ def table_31(F, I_c, M, M_c, N, S, case, joint, plane, y_0, y_0c, y_c):
 
 @app.cell(hide_code=True)
 def section_31():
-    mo.md("""
+    mo.md(r"""
     ### 3.1 Sheet 57 as it reads
 
-    For plane 1 and case 1 the scan reads $F$ = 6.928 cm² and $y_c$ = 4.677 cm, line 1 of the table; line 2 is
+    For plane 1 and case 1 the scan reads $F$ = 6.928 cm² and $y_\mathrm{c}$ = 4.677 cm, line 1 of the table; line 2 is
     that of table 3.1. Only with the latter follow the other printed numbers: *S* = 33.3 cm³, the reduced moment
     4.366·10⁵ kgf·cm, the axis −17.9 cm from the centroid with *I* = 4105 cm⁴. One digit of each is misread.
     """)
@@ -404,8 +404,8 @@ def printed_section(F, I_c, M, N, display, y_c):
     M_ce = M[0, 0] - N[0, 0] * y_ce  # [kgf*cm] reduced moment that follows
     y_0ce = -N[0, 0] * I_c[0, 0, 0] / (F_e * M_ce)  # [cm] neutral axis from the centroid that follows
     typeset(display=display)
-    table_33 = table("3.3", "Plane 1, case 1, as the scan reads and right", line, F_e, y_ce, S_e, M_ce, y_0ce)
-    table_33
+    table_32 = table("3.2", "Plane 1, case 1, as the scan reads and right", line, F_e, y_ce, S_e, M_ce, y_0ce)
+    table_32
     return
 
 
@@ -446,8 +446,8 @@ def iteration_shown(axes, case, display, plane, steps):
     n_k = steps  # [-] steps until the areas repeat, 0 where they do not
     step = counted(axes)  # [-] step
     typeset(display=display)
-    table_32 = table("3.2", "Iteration of the neutral axis", step, plane, case, y_k, n_k)
-    table_32
+    table_33 = table("3.3", "Iteration of the neutral axis", step, plane, case, y_k, n_k)
+    table_33
     return
 
 
@@ -590,10 +590,10 @@ def section_5():
     0$; what a bolt and what the rim carries for one unit of $q$ follows from the equilibrium of forces and of
     moments.
 
-    Where $c \ge 1$ all bolts pull and carry the load alone, with forces linear in $\cos\varphi$; where $c \le -1$
-    all is compressed and the rims carry $q$ itself; where $M = 0$ the load is spread evenly. Written with $q$,
-    nothing is divided by $M$. Bolts at uneven angles are solved approximately: $M_x$ is the moment across the plane
-    of the load that they leave over. A line load in compression is negative.
+    Where $c \ge 1$ all bolts pull and carry the load alone, with forces linear in $\cos\varphi$; where $c \le -1$ all
+    is compressed and the rims carry $q$ itself; where $M = 0$ the load is spread evenly. Written with $q$, nothing is
+    divided by $M$. Bolts at uneven angles are solved approximately: $M_\mathrm{x}$ is the moment across the plane of
+    the load that they leave over. A line load in compression is negative.
     """)
     return
 

@@ -260,9 +260,9 @@ def drawing_21(A, B, C, D, E, H, K, O1, O5, g, phi1, position_lines, s5, turn, u
 
 @app.cell
 def positions(A, B, C, D, E, g, group_23, group_45, group_67, mu23, mu45, phi1, phi2, phi3, phi4, phi6, s5, s7):
-    """
-    The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_{BC}$, from the
-    open end of the cylinder to the piston.
+    r"""
+    The groups must close, and the piston must stay in its cylinder: its stroke is the document's $l_\mathrm{BC}$, from
+    the open end of the cylinder to the piston.
     """
     checks_closing = (
         assembled("group (2, 3) closes", B, abs(A - C), (abs(g.l2 - g.l3), g.l2 + g.l3), "distance A C", "m"),
@@ -484,7 +484,7 @@ def section_5():
     square to their common line, is $R_{76}$, and its $R_{43}$ is $R_{07}$.
 
     Moments on the group about H, forces on the rod and on the cylinder, and moments on the rod about K, where
-    $R_{76}$ has the arm $h_{76} = l_{KN}$:
+    $R_{76}$ has the arm $h_{76} = l_\mathrm{KN}$:
 
     $$\bar l_{HK} \times \bar R_{36}^\tau + \bar l_{HS_6} \times \bar F_6 + \bar l_{HS_7} \times \bar F_7 + \bar M_6 +
     \bar M_7 = 0, \qquad l_{HK} = l_6 - s_7 + l_7, \quad l_{HS_6} = l_{HK} - l_{KS_6} \tag{1.33}$$
@@ -564,7 +564,7 @@ def drawing_51(F6_sum, F7_sum, H, K, R_H, R_K, S6, S7, SR3, checks_67, g, lines_
         r"""
         **Errata.** The second term of (1.35) is printed with $\sin(\varphi_2 - \gamma_2)$, the direction of the
         other link's load. (1.34) is printed with $\sin(\varphi_2 + 0.5)$ for $\sin(\varphi_2 + 0.5\,\pi)$: the
-        determinant over $l_{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is
+        determinant over $l_\mathrm{EA} R_{12}^\tau$ is -1 with the $\pi$. The first line of the system after (1.37) is
         printed with $R_{43}$ for $R_{32}$, and its right sides are called those of (1.10). (1.37) itself has
         $R_{12}^\tau$ where (1.10) and (1.26) have $|R_{12}^\tau|$: the direction is turned where $R_{12}^\tau$ is
         negative, so the sign would count twice. The printed and the right numbers:
@@ -814,8 +814,8 @@ def section_71():
     ### 7.1 Drive by a gear (program SRWL1)
 
     The wheel on the crank is driven at its pitch point P, to the left of $O_1$. Whichever flank of its teeth works, the
-    force on it points inwards, $\alpha_w$ off the tangent: where (1.49) comes out with minus, the direction is
-    $1.5\,\pi + \alpha_w$.
+    force on it points inwards, $\alpha_\mathrm{w}$ off the tangent: where (1.49) comes out with minus, the direction is
+    $1.5\,\pi + \alpha_\mathrm{w}$.
 
     $$\bar l_{O_1P} \times \bar F_b + \bar l_{O_1S_1} \times \bar F_1 + \bar l_{O_1A} \times \bar R_{21} + \bar M_1 = 0
     \tag{1.47}$$
@@ -1049,10 +1049,10 @@ def energy(C, F_g, H, P_A, P_D, P_E, P_K, P_S1, P_S2, P_S3, P_S4, P_S6, P_S7, V_
     Virtual work: the balancing moment and all loads, each with the velocity analogue of its point, do no work together,
     whatever the reactions. The gear gives the power of the coupling.
 
-    Energy: with the reduced moment of inertia $J_r$ and the potential $U$ of weights and gas,
-    $M_b = J_r\,\varepsilon_1 + \tfrac{1}{2}\,\omega_1^2\,\mathrm{d}J_r/\mathrm{d}\varphi_1 +
-    \mathrm{d}U/\mathrm{d}\varphi_1 - F_Q \cdot V_E$. Here the derivatives are taken numerically, so no formula of
-    accelerations, inertia forces or reactions takes part.
+    Energy: with the reduced moment of inertia $J_\mathrm{r}$ and the potential $U$ of weights and gas,
+    $M_\mathrm{b} = J_\mathrm{r}\,\varepsilon_1 + \tfrac{1}{2}\,\omega_1^2\,\mathrm{d}J_\mathrm{r}/\mathrm{d}\varphi_1 +
+    \mathrm{d}U/\mathrm{d}\varphi_1 - F_\mathrm{Q} \cdot V_\mathrm{E}$. Here the derivatives are taken numerically, so
+    no formula of accelerations, inertia forces or reactions takes part.
     """
     V_S2 = lambda phi1: link_velocity(P_S2(phi1), P_A(phi1), u2(phi1), V_A(phi1))  # [m] velocity analogue of S2
     V_S3 = lambda phi1: link_velocity(P_S3(phi1), C, u3(phi1))  # [m] velocity analogue of S3

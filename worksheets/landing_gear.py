@@ -162,7 +162,7 @@ def section_23():
     ### Step 3: stroke H of the piston
 
     The law of cosines (7), (8) is written as the length of a difference of vectors, and the difference (6) in factors:
-    the same numbers with their digits kept. In (6) the document prints $\ell_{O_2 A_0}$ for $\ell_{O_1 A_0}$.
+    the same numbers with their digits kept. In (6) the document prints $l_{O_2 A_0}$ for $l_{O_1 A_0}$.
     """)
     return
 
@@ -185,7 +185,7 @@ def section_24():
 
     The angles of the synthesis are equal only in the limit of a short crank. They are exactly equal, and then
     $\theta/2$ whatever the lengths, where $O_1$ lies on the line through both end positions of $A$: the swing is then
-    laid off about $\mu_{eq}$ instead of $\mu$. No mounting angle makes the larger of the two smaller than that.
+    laid off about $\mu_\mathrm{eq}$ instead of $\mu$. No mounting angle makes the larger of the two smaller than that.
     """)
     return
 
@@ -206,7 +206,8 @@ def pressure_ends(g, gamma_0, gamma_n, l12, mu, psi):
 def section_25():
     mo.md(r"""
     The drawing is to scale, the leg cut short. At both ends of the stroke the red line is the force along the rod, the
-    green one the velocity of $A$; the stroke $H$ is what the arc about $O_1$ through $A_0$ leaves of $O_1 A_n$.
+    green one the velocity of $A$; the stroke $H$ is what the arc about $O_1$ through $A_0$ leaves of $O_1
+    A_\mathrm{n}$.
     """)
     return
 
@@ -277,16 +278,16 @@ def section_35():
     $\varphi_{32}$ the document's $\Delta\varphi$. The leg's angle is a function of the cylinder's length, which the
     loop gives:
 
-    $$\varphi_3 = \varphi(\ell_2) \tag{10}$$
+    $$\varphi_3 = \varphi(l_2) \tag{10}$$
 
-    $$\bar\ell_3 + \bar\ell_2 = \bar b + \bar a \tag{16}$$
+    $$\bar l_3 + \bar l_2 = \bar b + \bar a \tag{16}$$
 
-    $$\begin{aligned} \ell_3 \cos\varphi_3 + \ell_2 \cos\varphi_2 &= -b \\
-    \ell_3 \sin\varphi_3 + \ell_2 \sin\varphi_2 &= a \end{aligned} \tag{17}$$
+    $$\begin{aligned} l_3 \cos\varphi_3 + l_2 \cos\varphi_2 &= -b \\
+    l_3 \sin\varphi_3 + l_2 \sin\varphi_2 &= a \end{aligned} \tag{17}$$
 
     Formula (28) takes $\varphi_3$ from one projection of the loop (17), by the arcsine; one of the programs takes the
-    arccosine. Each is right on one half of the circle only. Both projections together, $\ell_3 e^{i\varphi_3} = O_1 -
-    \ell_2 e^{i\varphi_2}$, give the two-argument arctangent; it is counted from the tangent position $\varphi_{3k}$,
+    arccosine. Each is right on one half of the circle only. Both projections together, $l_3 e^{i\varphi_3} = O_1 - l_2
+    e^{i\varphi_2}$, give the two-argument arctangent; it is counted from the tangent position $\varphi_\mathrm{3k}$,
     from which the crank never turns as far as 90°.
     """)
     return
@@ -329,7 +330,7 @@ def section_pressure():
     ### Pressure angle along the stroke
 
     The force on $A$ points away from $O_1$, the velocity of $A$ is square to the crank: $\alpha = \varphi_{32} + 90°$.
-    It is zero at the tangent position, where the cylinder has the length $\ell_{2k}$.
+    It is zero at the tangent position, where the cylinder has the length $l_\mathrm{2k}$.
     """)
     return
 
@@ -416,19 +417,19 @@ def section_38():
     mo.md(r"""
     ### Step 8: analogues of the angular velocities
 
-    Derivatives with respect to $\ell_2$: the angular velocities per unit of the rod's speed.
+    Derivatives with respect to $l_2$: the angular velocities per unit of the rod's speed.
 
-    $$(\omega_j)_{\ell_2} = \frac{\mathrm{d}\varphi_j}{\mathrm{d}\ell_2}, \qquad
-    (\varepsilon_j)_{\ell_2} = \frac{\mathrm{d}^2\varphi_j}{\mathrm{d}\ell_2^2} \tag{15}$$
+    $$(\omega_j)_{l_2} = \frac{\mathrm{d}\varphi_j}{\mathrm{d}l_2}, \qquad
+    (\varepsilon_j)_{l_2} = \frac{\mathrm{d}^2\varphi_j}{\mathrm{d}l_2^2} \tag{15}$$
 
     The loop (17), differentiated, then in axes turned by $\varphi_2$:
 
-    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2} \sin\varphi_3 - \ell_2 (\omega_2)_{\ell_2} \sin\varphi_2 +
-    \cos\varphi_2 &= 0 \\ \ell_3 (\omega_3)_{\ell_2} \cos\varphi_3 + \ell_2 (\omega_2)_{\ell_2} \cos\varphi_2 +
+    $$\begin{aligned} -l_3 (\omega_3)_{l_2} \sin\varphi_3 - l_2 (\omega_2)_{l_2} \sin\varphi_2 +
+    \cos\varphi_2 &= 0 \\ l_3 (\omega_3)_{l_2} \cos\varphi_3 + l_2 (\omega_2)_{l_2} \cos\varphi_2 +
     \sin\varphi_2 &= 0 \end{aligned} \tag{18}$$
 
-    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2} \sin(\varphi_3 - \varphi_2) + 1 &= 0 \\
-    \ell_3 (\omega_3)_{\ell_2} \cos(\varphi_3 - \varphi_2) + \ell_2 (\omega_2)_{\ell_2} &= 0 \end{aligned} \tag{19}$$
+    $$\begin{aligned} -l_3 (\omega_3)_{l_2} \sin(\varphi_3 - \varphi_2) + 1 &= 0 \\
+    l_3 (\omega_3)_{l_2} \cos(\varphi_3 - \varphi_2) + l_2 (\omega_2)_{l_2} &= 0 \end{aligned} \tag{19}$$
     """)
     return
 
@@ -448,16 +449,16 @@ def section_39():
 
     The equations (18), differentiated, then in the turned axes:
 
-    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2}^2 \cos\varphi_3 - \ell_3 (\varepsilon_3)_{\ell_2} \sin\varphi_3 -
-    \ell_2 (\omega_2)_{\ell_2}^2 \cos\varphi_2 - \ell_2 (\varepsilon_2)_{\ell_2} \sin\varphi_2 -
-    2 (\omega_2)_{\ell_2} \sin\varphi_2 &= 0 \\ -\ell_3 (\omega_3)_{\ell_2}^2 \sin\varphi_3 +
-    \ell_3 (\varepsilon_3)_{\ell_2} \cos\varphi_3 - \ell_2 (\omega_2)_{\ell_2}^2 \sin\varphi_2 +
-    \ell_2 (\varepsilon_2)_{\ell_2} \cos\varphi_2 + 2 (\omega_2)_{\ell_2} \cos\varphi_2 &= 0 \end{aligned} \tag{22}$$
+    $$\begin{aligned} -l_3 (\omega_3)_{l_2}^2 \cos\varphi_3 - l_3 (\varepsilon_3)_{l_2} \sin\varphi_3 -
+    l_2 (\omega_2)_{l_2}^2 \cos\varphi_2 - l_2 (\varepsilon_2)_{l_2} \sin\varphi_2 -
+    2 (\omega_2)_{l_2} \sin\varphi_2 &= 0 \\ -l_3 (\omega_3)_{l_2}^2 \sin\varphi_3 +
+    l_3 (\varepsilon_3)_{l_2} \cos\varphi_3 - l_2 (\omega_2)_{l_2}^2 \sin\varphi_2 +
+    l_2 (\varepsilon_2)_{l_2} \cos\varphi_2 + 2 (\omega_2)_{l_2} \cos\varphi_2 &= 0 \end{aligned} \tag{22}$$
 
-    $$\begin{aligned} -\ell_3 (\omega_3)_{\ell_2}^2 \cos(\varphi_3 - \varphi_2) - \ell_3 (\varepsilon_3)_{\ell_2}
-    \sin(\varphi_3 - \varphi_2) - \ell_2 (\omega_2)_{\ell_2}^2 &= 0 \\ -\ell_3 (\omega_3)_{\ell_2}^2
-    \sin(\varphi_3 - \varphi_2) + \ell_3 (\varepsilon_3)_{\ell_2} \cos(\varphi_3 - \varphi_2) +
-    2 (\omega_2)_{\ell_2} + \ell_2 (\varepsilon_2)_{\ell_2} &= 0 \end{aligned} \tag{23}$$
+    $$\begin{aligned} -l_3 (\omega_3)_{l_2}^2 \cos(\varphi_3 - \varphi_2) - l_3 (\varepsilon_3)_{l_2}
+    \sin(\varphi_3 - \varphi_2) - l_2 (\omega_2)_{l_2}^2 &= 0 \\ -l_3 (\omega_3)_{l_2}^2
+    \sin(\varphi_3 - \varphi_2) + l_3 (\varepsilon_3)_{l_2} \cos(\varphi_3 - \varphi_2) +
+    2 (\omega_2)_{l_2} + l_2 (\varepsilon_2)_{l_2} &= 0 \end{aligned} \tag{23}$$
 
     From (23) the fraction (24) has a minus, which the document's print lacks; (25) takes its value and inherits the
     mistake with it. (24) is shown both ways.
@@ -714,10 +715,10 @@ def section_5():
     ## 5 Choice of the retraction time
 
     A short retraction saves fuel in the take-off but loads rod and piston. The document looks for the position of the
-    least analogue $(\varepsilon_3)_{\ell_2}$ and draws $\varepsilon_3$ over $t$. In magnitude the least is zero, in the
-    tangent position $\ell_{2k}$, at part $p_k$ of the stroke; what the limit must be kept against is the greatest.
-    $(\omega_3)_{\ell_2}^{-2}$ is concave in $\ell_2$, so $|(\omega_3)_{\ell_2}|$ is convex, its slope grows from end to
-    end, and the greatest $|(\varepsilon_3)_{\ell_2}|$ is at one of the ends.
+    least analogue $(\varepsilon_3)_{l_2}$ and draws $\varepsilon_3$ over $t$. In magnitude the least is zero, in the
+    tangent position $l_\mathrm{2k}$, at part $p_\mathrm{k}$ of the stroke; what the limit must be kept against is the
+    greatest. $(\omega_3)_{l_2}^{-2}$ is concave in $l_2$, so $|(\omega_3)_{l_2}|$ is convex, its slope grows from end
+    to end, and the greatest $|(\varepsilon_3)_{l_2}|$ is at one of the ends.
     """)
     return
 
@@ -862,8 +863,8 @@ def section_62():
     mo.md(r"""
     ### 6.2 Shares of the loads, by virtual work
 
-    Each load moves with the velocity analogue of its point; the work of the cylinder on $d\ell_2$ is that against the
-    loads.
+    Each load moves with the velocity analogue of its point; the work of the cylinder on $\mathrm{d}l_2$ is that against
+    the loads.
     """)
     return
 

@@ -214,10 +214,10 @@ def section_4():
     $$u = \frac{A - B}{S_{AB}}, \qquad V_A = (\dot S_{AB} + i\,\omega\,S_{AB})\,u, \qquad
       W_A = \big(\ddot S_{AB} - \omega^2 S_{AB} + i\,(\varepsilon\,S_{AB} + 2\,\omega\,\dot S_{AB})\big)\,u,$$
 
-    so that the position alone fixes $u$ and $S_{AB}$, and the rest is linear. The link points from B to the slider,
-    $S_{AB} > 0$: that is the branch +1 of the group. Points are complex numbers $x + iy$ from B. The angle
-    $\varphi_3$ is counted from $\varphi_s = \pi/2$, or from the crank, $\varphi_s = \varphi_1$, where the link goes
-    round with it: so it never jumps by a turn.
+    so that the position alone fixes $u$ and $S_\mathrm{AB}$, and the rest is linear. The link points from B to the
+    slider, $S_\mathrm{AB} > 0$: that is the branch +1 of the group. Points are complex numbers $x + iy$ from B. The
+    angle $\varphi_3$ is counted from $\varphi_\mathrm{s} = \pi/2$, or from the crank, $\varphi_\mathrm{s} = \varphi_1$,
+    where the link goes round with it: so it never jumps by a turn.
     """)
     return
 
@@ -304,11 +304,12 @@ def section_5():
     mo.md(r"""
     ## 5 Find against the closed form
 
-    The six equations have more roots than the mechanism has positions: beside $(\varphi_3, S_{AB})$ stand
-    $(\varphi_3 + 2\pi j, S_{AB})$, the same link, and $(\varphi_3 + \pi + 2\pi j, -S_{AB})$, the link that points
-    away from the slider, on which C stands on the other side of B and moves the opposite way. In which one a Find ends
-    depends on its first approximations; nothing in the equations tells. The closed form names its branch, so its
-    numbers are used everywhere else. The checks compare each root with the closed form of the branch that it is on.
+    The six equations have more roots than the mechanism has positions: beside $(\varphi_3, S_\mathrm{AB})$ stand
+    $(\varphi_3 + 2\pi j, S_\mathrm{AB})$, the same link, and $(\varphi_3 + \pi + 2\pi j, -S_\mathrm{AB})$, the link
+    that points away from the slider, on which C stands on the other side of B and moves the opposite way. In which one
+    a Find ends depends on its first approximations; nothing in the equations tells. The closed form names its branch,
+    so its numbers are used everywhere else. The checks compare each root with the closed form of the branch that it is
+    on.
     """)
     return
 
@@ -440,9 +441,9 @@ def section_6():
     mo.md(r"""
     ## 6 Strokes
 
-    A swinging link turns back where it touches the crank's circle; a link that goes round has its C at the ends of
-    its travel along x where it lies along the x axis. In both cases the crank is then $\varphi_q / 2$ off the direction
-    from $O_1$ to B, and takes the quick stroke through the angle $\varphi_q$ on the side of B.
+    A swinging link turns back where it touches the crank's circle; a link that goes round has its C at the ends of its
+    travel along x where it lies along the x axis. In both cases the crank is then $\varphi_\mathrm{q} / 2$ off the
+    direction from $O_1$ to B, and takes the quick stroke through the angle $\varphi_\mathrm{q}$ on the side of B.
     """)
     return
 
@@ -585,10 +586,10 @@ def section_9():
       crank's sense, fastest as the slider is nearest to B. Its strokes are its half turns below and above B.
     - $L_1 = L_0$: the circle goes through B. Everywhere else the link turns evenly, at half the crank's speed; as the
       crank points at B the slider is at the hinge itself, and the link can take any direction. From there it either
-      turns on, with the slider on its other side ($S_{AB}$ changes sign, the branch -1 follows), or it is thrown round
-      by half a turn and the branch stays. The equations leave both open, and $\varepsilon_3$ drops out of them. That
-      position alone has no numbers here, and a check names it if it is in the tables; there is no quick stroke and no
-      stroke ratio.
+      turns on, with the slider on its other side ($S_\mathrm{AB}$ changes sign, the branch -1 follows), or it is thrown
+      round by half a turn and the branch stays. The equations leave both open, and $\varepsilon_3$ drops out of them.
+      That position alone has no numbers here, and a check names it if it is in the tables; there is no quick stroke and
+      no stroke ratio.
     """)
     return
 

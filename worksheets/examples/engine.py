@@ -192,7 +192,7 @@ def compared_motion(A, C, a_A, a_C, a_S, dx, eps, g, omega, phi, v, x):
 
 @app.cell
 def results_2(a_C, beta_phi, g, phi, s, v):
-    table_21 = table("2.1", "Motion", phi, beta_phi, s, v, a_C, every=g.step)
+    table_21 = table("2.1", "Motion", phi, beta_phi, s, v, a_C, every=g.step, decimals=2)
     figure_21 = figure("2.1", "Speed of the piston", phi, v)
     figure_22 = figure("2.2", "Acceleration of the piston", phi, a_C)
     typeset(table_21, figure_21, figure_22)
@@ -414,9 +414,9 @@ def section_6():
     mo.md(r"""
     ## 6 Flywheel
 
-    The load takes the mean torque. What the engine gives beyond it speeds the shaft up: the greatest excess $A_f$
-    between the lowest and the highest speed sets the inertia for the fluctuation $\delta$. The rim alone counts, and
-    its thickness is made up to a whole millimetre.
+    The load takes the mean torque. What the engine gives beyond it speeds the shaft up: the greatest excess
+    $A_\mathrm{f}$ between the lowest and the highest speed sets the inertia for the fluctuation $\delta$. The rim alone
+    counts, and its thickness is made up to a whole millimetre.
     """)
     return
 

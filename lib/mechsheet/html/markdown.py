@@ -10,6 +10,7 @@ from markdown.inlinepatterns import InlineProcessor  # type: ignore[import-untyp
 
 _TAG = re.compile(r"\\tag\{([^}]*)\}")
 _UPRIGHT = re.compile(r"\\mathrm\{([^{}]*)\}")  # which is left slanted otherwise
+_WORD = re.compile(r"<mtext>(\w[\w,]*)</mtext>")  # an index or an operator, which formulas of lines have so too
 _CAPITAL = re.compile(r"<mi>(&#x003(?:9[348BE]|A[035689]);)</mi>")  # Greek ones, which print has upright
 _TABLES = {"aligned": "split", "gathered": "matrix"}  # environments that run into one line otherwise
 _BARS = re.compile(r"<mo>(&#x0007C;|&#x02016;)</mo>(<mtable>(?:(?!<mtable>).)*?</mtable>)<mo>\1</mo>")
@@ -51,6 +52,7 @@ def formula(latex: str, *, block: bool = False) -> str:
     inside = re.sub(r"^<math[^>]*><mrow>(.*)</mrow></math>$", r"\1", written, flags=re.DOTALL)
     inside = _BARS.sub(lambda m: f"<mrow>{_BAR.format('pre', m[1])}{m[2]}{_BAR.format('post', m[1])}</mrow>", inside)
     inside = _FUNCTION.sub(_spaced, inside)
+    inside = _WORD.sub(r'<mi mathvariant="normal">\1</mi>', inside)
     inside = _CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', inside)
     inside = _SIGN.sub(r'\1<mo form="prefix">', inside).replace(_SLASH, '<mo lspace="0" rspace="0">&#x0002F;</mo>')
     # Browsers know of columns what styles say of their cells.
