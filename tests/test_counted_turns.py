@@ -95,6 +95,33 @@ GATHERED = [  # in lists and arrays, which a workbook has as long as now
     "v = np.zeros(g.m, int)\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = v.sum() * 1.0",
     "v = np.zeros(g.m)\nw = v\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = w.sum() * 1.0",
 ]
+NESTED = [  # a workbook takes as many turns of each as now
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m):\n        s += g.x**(i + j)\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(i):\n        s += g.x**(i + j)\n    s += 1\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m - 2):\n        s += g.x * (i + j)\n    s += 1\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m):\n        if i == j:\n            continue\n"
+    "        s += g.x / (i - j)\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m):\n        if g.x * j > 1:\n            break\n"
+    "        s += g.x**(i + j)\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for j in range(i + 1):\n        for k in range(g.m):\n"
+    "            s += g.x * (i - j + k)\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    for a, b in [(1.0, 2.0), (g.x, 3.0)]:\n        s += a * i + b\nNAME = s",
+    "s = 0.0\nfor i, a in enumerate([1.0, 2.0, 4.0]):\n    for j in range(g.n):\n        s += a * g.x**j\nNAME = s",
+    "s = 0.0\nfor i in range(g.n):\n    z = 1.0\n    while abs(z * z - g.x - i) > 1e-9:\n"
+    "        z = (z + (g.x + i) / z) / 2\n    s += z\nNAME = s",
+    "z, k = 1.0, 0\nwhile abs(z * z - g.x) > 1e-9:\n    for q in range(g.m):\n        z = (z + g.x / z) / 2\n"
+    "    k += 1\nNAME = z + k",
+    "M = np.zeros((g.n + 1, 3))\nfor i in range(g.n):\n    for j in range(3):\n"
+    "        M[i + 1, j] = M[i, j] * 0.9 + g.x\nNAME = M.sum() * 1.0",
+    "M = np.zeros((g.n + 1, g.m + 1))\nfor i in range(g.n + 1):\n    for j in range(g.m + 1):\n"
+    "        M[i, j] = g.x**i / (j + 1)\nNAME = M.sum() * 1.0",
+    "u = np.linspace(0, 1, 6)\nfor k in range(g.n):\n    v = u * 1\n    for i in range(1, 5):\n"
+    "        v[i] = u[i] + g.x * 0.1 * (u[i + 1] - 2 * u[i] + u[i - 1])\n    u = v\nNAME = u.sum()",
+    "def runge_kutta(f, y0, n, h):\n    y = np.zeros((n + 1, len(y0)))\n    y[0] = y0\n    for i in range(n):\n"
+    "        k1 = f(y[i])\n        k2 = f(y[i] + h * k1)\n        y[i + 1] = y[i] + h / 2 * (k1 + k2)\n    return y\n"
+    "def rate(u):\n    return np.array([u[1], -g.x * u[0]])\n"
+    "NAME = runge_kutta(rate, [1.0, 0.0], g.n, 0.1)[-1, 0] * 1.0",
+]
 LISTS = "arange", "linspace", "[g.x", "max(math"  # of so many numbers, which a workbook has as many of as now
 OTHER: list[dict[str, Any]] = [
     {}, {"n": 0}, {"n": 1}, {"n": 2, "x": 1.25}, {"n": 12}, {"n": 13, "m": 4, "x": 0.31}, {"n": 40}, {"n": 3, "m": 9},
@@ -122,7 +149,7 @@ def recorded(sheet: cells.Worksheet, **options: Any) -> Recording:
     return record({**names, "__file__": sheet.path}, **options)
 
 
-@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 13)])
+@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 13), (NESTED, len(NESTED))])
 def test_a_page_takes_as_many_turns_as_its_inputs_say(
     every: Sequence[str], followed: int, blank: Page, tmp_path: Path
 ) -> None:
@@ -141,11 +168,12 @@ def test_a_page_takes_as_many_turns_as_its_inputs_say(
             np.testing.assert_allclose(number, own, rtol=1e-12, err_msg=f"{every[k]} {each}")
 
 
+@pytest.mark.parametrize("every", [FOLLOWED, GATHERED, NESTED])
 def test_cells_take_twice_as_many_turns_as_now_and_some_more(
-    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+    every: Sequence[str], recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
 ) -> None:
-    """What takes more of them, or is a list of so many, has no number, and a check fails."""
-    sheet = sheet_of(tmp_path, "Own")
+    """What takes more of them, or is a list of so many, or stands in another loop, has no number."""
+    sheet = sheet_of(tmp_path, "Own", every)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     path = tmp_path / "own.xlsx"
     path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
@@ -155,21 +183,23 @@ def test_cells_take_twice_as_many_turns_as_now_and_some_more(
         for n, each in enumerate(OTHER)
     ]
     for each, book in zip(OTHER, recalculated_all(paths), strict=True):
-        for k, own in enumerate(expected(sheet, each)):
+        for k, own in enumerate(expected(sheet, each, every)):
             shown = book[f"{k} Alone"]["A5"].value
             if shown == "#N/A":
-                assert each["n"] > 13 or any(form in FOLLOWED[k] for form in LISTS), (FOLLOWED[k], each)
+                may_be = each["n"] > 13 or any(form in every[k] for form in LISTS)
+                assert may_be if every is FOLLOWED else each, (every[k], each)
             else:
-                np.testing.assert_allclose(shown, own, rtol=1e-11, err_msg=f"{FOLLOWED[k]} {each}")
+                np.testing.assert_allclose(shown, own, rtol=1e-11, err_msg=f"{every[k]} {each}")
 
 
+@pytest.mark.parametrize("every", [FOLLOWED, GATHERED, NESTED])
 @pytest.mark.parametrize("bodies", [False, True])
-def test_every_reader_has_the_number_of_the_inputs_or_none(bodies: bool, tmp_path: Path) -> None:
-    sheet = sheet_of(tmp_path)
+def test_every_reader_has_the_number_of_the_inputs_or_none(bodies: bool, every: Sequence[str], tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path, each=every)
     recording = recorded(sheet, whole=bodies)
     for each in OTHER:
-        nodes = [recording.values[f"y_{k}"].re for k in range(len(FOLLOWED))]
+        nodes = [recording.values[f"y_{k}"].re for k in range(len(every))]
         given = {recording.inputs[name]: float(value) for name, value in each.items()}
         found = numbers(nodes, given)
-        for k, own in enumerate(expected(sheet, each)):
-            assert np.isnan(found[nodes[k]]) or found[nodes[k]] == pytest.approx(own, rel=1e-12), (FOLLOWED[k], each)
+        for k, own in enumerate(expected(sheet, each, every)):
+            assert np.isnan(found[nodes[k]]) or found[nodes[k]] == pytest.approx(own, rel=1e-12), (every[k], each)

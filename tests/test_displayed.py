@@ -98,7 +98,7 @@ def same(text: str, value: float, unit: str, digits: int = 0) -> bool:
 
 VALUE = r"(?:−?[\d.]+(?:\s·\s10<sup>−?\d+</sup>)?|none|−?∞|≈ 0)"
 WHERE = r' <span class="ms-where">least at (.*?), greatest at (.*?)</span>'
-PLACE = rf"(?:^|, )(\S*?<i>.*?) = ({VALUE})(.*?)(?=, \S*<i>|$)"
+PLACE = rf"(?:^|, )(\S+) = ({VALUE})(.*?)(?=, \S+ = |$)"
 
 
 def numbers_in(text: str) -> tuple[list[str], str]:

@@ -104,8 +104,8 @@ const LOOKS = {
 // What an element tells under the pointer.
 const digits = x => significant(x, 4);
 function amount(x, unit) {
-  if (unit === "N" && Math.abs(x) >= 1000) return `${digits(x / 1000)} kN`;
-  return unit === "m" && 0 < Math.abs(x) && Math.abs(x) < 0.1 ? `${digits(x * 1000)} mm` : `${digits(x)} ${unit}`;
+  if (unit === "N" && Math.abs(x) > 999.95) return `${digits(x / 1000)} kN`;
+  return unit === "m" && 0 < Math.abs(x) && Math.abs(x) < 0.099995 ? `${digits(x * 1000)} mm` : `${digits(x)} ${unit}`;
 }
 const distance = e => amount(sizeOf(minus(e.points[1], e.points[0])), "m");
 const placeOf = e => `${digits(e.points[0][0])}, ${digits(e.points[0][1])} m`;

@@ -140,6 +140,8 @@ class Lengths(ABC):
         for part, k in parts:
             if part.stretches:
                 found.add((yield part, k))
+        if parts and self.fixed.issuperset(found):
+            return self.constant(node.shape[axis])
         if len(found) > 1:  # what is found for the rows has as many
             found = {n for n in found if n.op != "length" or n.args[0].op != "found"}
         fixed = all(part.stretches or part.shape[k] == 1 for part, k in parts)

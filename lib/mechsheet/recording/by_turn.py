@@ -23,7 +23,8 @@ def by_turn(node: ast.For) -> list[ast.stmt] | None:
     loop = ast.For(node.target, turns, body, [])
     settled = [ast.Expr(ast.Call(ast.Name("locals", ast.Load()), [], []))]  # what it has told of a function, it keeps
     settled += [ast.Expr(call("settled", node, ast.Name(name, ast.Load()))) for name in arrays]
-    either = ast.If(call("setting", node, turns), [loop, *settled], [node])
+    known = call("known", node, ast.Call(ast.Name("locals", ast.Load()), [], []), *map(ast.Constant, arrays))
+    either = ast.If(call("setting", node, turns, ast.Starred(known, ast.Load())), [loop, *settled], [node])
     return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (ask, either)]
 
 
@@ -36,6 +37,10 @@ def _line(line: ast.stmt, arrays: dict[str, None]) -> ast.stmt:
     match line:
         case ast.If(test, then, otherwise):
             return ast.copy_location(ast.If(test, _anew(then, arrays), _anew(otherwise, arrays)), line)
+        case ast.For(target, items, inner, []):
+            return ast.copy_location(ast.For(target, items, _anew(inner, arrays), []), line)
+        case ast.While(test, inner, []):
+            return ast.copy_location(ast.While(test, _anew(inner, arrays), []), line)
         case ast.Assign([ast.Subscript(ast.Name(name), key)], value):
             new = value
         case ast.AugAssign(ast.Subscript(ast.Name(name), key), operation, value):

@@ -2,6 +2,8 @@
 
 import operator
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, Sized, ValuesView
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import partial, reduce
 from itertools import repeat
 from types import FunctionType
@@ -73,11 +75,31 @@ def counted(*ends: Any) -> Any:
     return Turns(ends, start, step, distance if step == 1 else -(-distance // step))
 
 
-def setting(items: Any) -> bool:
-    """Whether a loop that sets elements of arrays has so many turns as the inputs say."""
-    if isinstance(items, Turns):
-        items.sets = True
-    return isinstance(items, Turns)
+def setting(items: Any, *containers: Any) -> bool:
+    """Whether a loop that sets elements of arrays, and of nothing else, has so many turns as the inputs say."""
+    if not isinstance(items, Turns) or not all(isinstance(x, ARRAYS) or x is UNBOUND for x in containers):
+        return False
+    items.sets = True
+    return True
+
+
+class _Within:
+    """What is recorded of the loops in a turn of another one: nothing more than its own run, or any turn of them."""
+
+    def __init__(self, of_any: bool) -> None:
+        self.of_any, self.has_loops = of_any, False
+
+
+_within: ContextVar[_Within | None] = ContextVar("_within", default=None)
+
+
+@contextmanager
+def _turns_of(within: _Within) -> Iterator[_Within]:
+    token = _within.set(within)
+    try:
+        yield within
+    finally:
+        _within.reset(token)
 
 
 def over_all(kind: str, f: Callable[[Any], Any], turns: Turns) -> Any:
@@ -122,20 +144,45 @@ def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any
     graph, some = turns.count.graph, turns.count > 0
     looked = dict(graph.looked)
     state = tuple(of_now(x, always=True) if isinstance(x, Quantity) else x for x in first)
+    with _turns_of(_Within(of_any=False)) as within:
+        now = _taken(turn, turns, item, state)
+        if not some.value:
+            graph.see((~some).re)
+            now = _supposed(turn, turns, item, state)
+    begin = (*first[:item], turns.of(0), *first[item + 1 :])
+    found = now and _repeated(turn, turns, item, begin, now, looked)
+    if not found and within.has_loops and not _within.get():  # each of which may be followed alone
+        graph.looked = looked
+        now = _taken(turn, turns, item, state)
+    if not found:
+        return now if some.value else first
+    given = [np.nan if x is UNBOUND else x for x in first]
+    return tuple(where(graph, some, x, lift(graph, y).like(x)) for x, y in zip(found, given, strict=True))
+
+
+def _taken(turn: Callable[..., Any], turns: Turns, item: int, state: tuple[Any, ...]) -> tuple[Any, ...]:
+    """What is after all turns that a loop takes now."""
     for number in range(int(turns.count.value)):
         ends, *after = turn(*state[:item], turns.of(number), *state[item + 1 :])
         state = tuple(after)
         if ends | turns.end(number):
             break
-    if not some.value:
-        graph.see((~some).re)
-        return first
-    begin = (*first[:item], turns.of(0), *first[item + 1 :])
-    found = _repeated(turn, turns, item, begin, state, looked)
-    if found is None:
-        return state
-    given = [np.nan if x is UNBOUND else x for x in first]
-    return tuple(where(graph, some, x, lift(graph, y).like(x)) for x, y in zip(found, given, strict=True))
+    return state
+
+
+def _supposed(turn: Callable[..., Any], turns: Turns, item: int, state: tuple[Any, ...]) -> tuple[Any, ...]:
+    """What would be after a turn, where there is none now; nothing where that would be an error."""
+    graph = current.get()
+    looked, work = dict(graph.looked), graph.work
+    graph.supposed += 1
+    try:
+        _, *after = turn(*state[:item], turns.of(0), *state[item + 1 :])
+        return tuple(after)
+    except (Exception, NotRecorded):
+        return ()
+    finally:
+        graph.supposed -= 1
+        graph.looked, graph.work = looked, work
 
 
 def _one_by_one(
@@ -190,11 +237,15 @@ def _repeated(
 
     ``looked`` are the guards before any that tell how many turns it takes now.
     """
-    if not all(isinstance(x, ARRAYS) or x is UNBOUND for x in first) or not all(isinstance(x, ARRAYS) for x in last):
+    if outer := _within.get():
+        outer.has_loops = True
+    if outer and not outer.of_any:
+        return None
+    if not all(isinstance(x, ARRAYS) or x is UNBOUND for x in (*first, *last)):
         return None
     graph = current.get()
     met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
-    end = [lift(graph, x) for x in (*last, 0)]
+    end = [lift(graph, np.nan if x is UNBOUND else x) for x in (*last, 0)]
     begin = [
         lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
     ]
@@ -202,16 +253,19 @@ def _repeated(
     initial = _parts(begin, like)
     nodes = [graph.state(node) for node in initial]
     *state, number = _whole(graph, nodes, like)
-    now, graph.looked = graph.looked, {}
+    now, numbered = graph.looked, graph.numbered
+    graph.looked, graph.numbered = {}, {}
     try:
-        ends, *after = _turned(turn, items, item, number, state)
+        with _turns_of(_Within(of_any=True)) as within:
+            ends, *after = _turned(turn, items, item, number, state)
         made = [lift(graph, x) for x in (*after, number + 1)]
         inside = graph.looked  # what Python sees of other things holds for all turns
-        followed = met and free_of(nodes, inside) and is_condition(ends)
+        followed = met and free_of(nodes, inside | graph.numbered) and is_condition(ends)
+        numbered |= graph.numbered if followed else {}
     except (Exception, NotRecorded):
         followed = False
     finally:
-        graph.looked = now
+        graph.looked, graph.numbered = now, numbered
     if not followed or [x.extent for x in made] != [x.extent for x in like]:
         return None
     if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
@@ -220,8 +274,11 @@ def _repeated(
     most = None if item is None or isinstance(items, Turns) else len(items)
     loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
     same = reduce(operator.and_, (Quantity(graph, holds) for holds in met))
-    ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (same, end[:-1])
-    graph.see(lift(graph, ended).re, turns=True)
+    ended, state = same, end[:-1]
+    if not (outer or within.has_loops):
+        ended, state = _in_turns(turn, items, item, _whole(graph, initial, like)[:-1], most) or (ended, state)
+    if not outer:
+        graph.see(lift(graph, ended).re, turns=True)
     turns = [where(graph, ended, Quantity(graph, node), np.nan).re for node in _parts(state, like[:-1])]
     found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
     return tuple(_whole(graph, found, like[:-1]))

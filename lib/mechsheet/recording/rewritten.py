@@ -44,6 +44,7 @@ from mechsheet.recording.ways import (
     looking,
     only_bind,
     returning,
+    turned,
     unbound_left,
 )
 from mechsheet.worksheet import source
@@ -61,6 +62,8 @@ _KINDS = (
 
 
 class _Rewriting(ast.NodeTransformer):
+    turns = 0  # of loops, one in another, that are rewritten as functions
+
     def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
         """What an import statement binds is exchanged at once."""
         names = [name for name in bound(node) if name != "*"]
@@ -215,9 +218,7 @@ class _Rewriting(ast.NodeTransformer):
         defined, chosen = _both_ways(node, [*node.body, result], [*node.orelse, result], names)
         lines = [*defined, ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], chosen), node)]
         lines = [self.visit(line) for line in lines]
-        for name in sorted(then ^ otherwise):
-            lines.append(_unbound(name, node))
-        return lines
+        return [*lines, *self._unbound(sorted(then ^ otherwise), node)]
 
     def _put_where(self, node: ast.If, target: ast.Subscript, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
         """The element is looked for only where the statement sets it."""
@@ -248,7 +249,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def _repeated(self, node: ast.While | ast.For, item: str | None, items: ast.expr, body: list[ast.stmt]) -> Any:
         """A loop that may end by what it computes, and does nothing but give names values, as a function of a turn."""
-        if node.orelse or is_of_the_whole(items) or not only_bind(body, *_ENDS):
+        if node.orelse or is_of_the_whole(items) or not only_bind(body, *_ENDS, ast.For, ast.While):
             if isinstance(node, ast.For) and not node.orelse and (either := by_turn(node)):
                 return [new for line in either for new in _lines(self.visit(line))]
             self.generic_visit(node)
@@ -258,7 +259,9 @@ class _Rewriting(ast.NodeTransformer):
         given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
         ways = [way for line in turn for way in returning(line, names)]
         function = ast.copy_location(ast.FunctionDef("recorded turn", given, ways, []), node)
-        known = call("known", node, _call_of("locals"), *map(ast.Constant, names))
+        inner = turned(body)  # what these were before nobody asks
+        asked = ("" if name in inner else name for name in names)
+        known = call("known", node, _call_of("locals"), *map(ast.Constant, asked))
         place = ast.Constant(names.index(item) if item else None)
         loaded = (part for line in body for part in ast.walk(line) if isinstance(part, ast.Name))
         read = {part.id for part in loaded if isinstance(part.ctx, ast.Load)}
@@ -267,8 +270,14 @@ class _Rewriting(ast.NodeTransformer):
         ended = call("iterated", node, *now, ast.Starred(known, ast.Load()))
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
         bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], ended), node)
-        lines = [self.visit(function), self.visit(bind)]
-        return [*lines, *(_unbound(name, node) for name in names)]
+        self.turns += 1
+        lines = [self.visit(function)]
+        self.turns -= 1
+        return [*lines, self.visit(bind), *self._unbound(names, node)]
+
+    def _unbound(self, names: list[str], node: ast.stmt) -> list[ast.stmt]:
+        """Delete names that are not bound; a turn of a loop gives back what they stand for."""
+        return [] if self.turns else [_deleted(name, node) for name in names]
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
@@ -308,8 +317,7 @@ def _lines(lines: Any) -> list[ast.stmt]:
     return [*lines] if isinstance(lines, list | tuple) else [lines]
 
 
-def _unbound(name: str, node: ast.stmt) -> ast.stmt:
-    """Delete a name that is not bound."""
+def _deleted(name: str, node: ast.stmt) -> ast.stmt:
     test = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
     return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
+from mechsheet.recording.ways import turned
 from mechsheet.worksheet import source
 from mechsheet.worksheet.check import Check, check, check_slope
 from mechsheet.worksheet.find import find
@@ -49,8 +50,8 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
     if any(isinstance(n, _SCOPES) for n in nodes):  # else all of them are the worksheet's
         names = [*_read(statement, frozenset())]
-    turned = _turned(statement)
-    names = [n for n in names if n.id not in turned]
+    own = frozenset(turned([statement]) if isinstance(statement, ast.For | ast.While) else ())
+    names = [n for n in names if n.id not in own]
     of_parts = {id(n.value) for n in attributes}
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
@@ -60,17 +61,9 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
-        turned,
+        own,
         tuple(_columns(statement)),
     )
-
-
-def _turned(statement: ast.stmt) -> frozenset[str]:
-    """Names that a loop binds before anything in it reads them."""
-    if not isinstance(statement, ast.For):
-        return frozenset()
-    targets = frozenset(n.id for n in source.nodes(statement.target) if isinstance(n, ast.Name))
-    return frozenset() if targets & _names(statement.iter) else targets
 
 
 def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:

@@ -7,20 +7,44 @@ from mechsheet.recording.forms import SCOPED
 
 
 def only_bind(lines: Iterable[ast.stmt], *others: type[ast.stmt]) -> bool:
-    """Whether statements do nothing but give names values, or are of some ``others``, such as the end of a turn."""
+    """Whether statements do nothing but give names values, or are of some ``others``, such as the end of a turn.
+
+    Of a loop among those neither does what stands in it.
+    """
     return all(_only_binds(line, others) for line in lines)
 
 
 def _only_binds(line: ast.stmt, others: tuple[type[ast.stmt], ...]) -> bool:
     match line:
+        case ast.For() | ast.While():
+            named = isinstance(line, ast.While) or _are_names(line.target)
+            alone = type(line) in others and named and not line.orelse and not _has_of_the_whole(line)
+            return alone and only_bind(line.body, *others)
         case ast.If(test, body, orelse):
             return not _has_of_the_whole(test) and only_bind([*body, *orelse], *others)
         case ast.Assign(targets, value):
-            names = all(isinstance(p, ast.Name | ast.Tuple | ast.Store) for t in targets for p in ast.walk(t))
-            return names and not _has_of_the_whole(value)
+            return all(map(_are_names, targets)) and not _has_of_the_whole(value)
         case ast.AugAssign(target, _, value) | ast.AnnAssign(target, _, ast.expr() as value):
             return isinstance(target, ast.Name) and not _has_of_the_whole(value)
     return isinstance(line, (ast.Pass, *others)) and not _has_of_the_whole(line)
+
+
+def _are_names(target: ast.expr) -> bool:
+    return all(isinstance(part, ast.Name | ast.Tuple | ast.Store) for part in ast.walk(target))
+
+
+def turned(lines: Iterable[ast.AST]) -> set[str]:
+    """Names that loops bind anew at each of their turns, and that nothing beside those reads."""
+    targets, inside, loaded = set[str](), set[int](), list[ast.Name]()
+    for node in (node for line in lines for node in ast.walk(line)):
+        if isinstance(node, ast.For):
+            own = {part.id for part in ast.walk(node.target) if isinstance(part, ast.Name)}
+            targets |= own
+            parts = (part for line in node.body for part in ast.walk(line) if isinstance(part, ast.Name))
+            inside |= {id(part) for part in parts if part.id in own}
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
+            loaded.append(node)
+    return targets.difference(part.id for part in loaded if id(part) not in inside)
 
 
 def unbound_left(node: ast.For) -> ast.stmt:

@@ -229,10 +229,13 @@ class Drawing(Shown):
 
 
 def quantity(value: float, unit: str) -> str:
-    """A value with its unit, as it is written in a drawing: small lengths in mm, large forces in kN."""
-    if unit == "N" and abs(value) >= 1000:
+    """A value with its unit, as it is written in a drawing: small lengths in mm, large forces in kN.
+
+    What is written as 1 kN or 0.1 m is so too where it is a rounding less.
+    """
+    if unit == "N" and abs(value) > 999.95:
         value, unit = value / 1000, "kN"
-    elif unit == "m" and 0 < abs(value) < 0.1:
+    elif unit == "m" and 0 < abs(value) < 0.099995:
         value, unit = value * 1000, "mm"
     return f"{_digits(value)} {unit}"
 
