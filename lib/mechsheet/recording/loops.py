@@ -151,9 +151,9 @@ def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any
             now = _supposed(turn, turns, item, state)
     begin = (*first[:item], turns.of(0), *first[item + 1 :])
     found = now and _repeated(turn, turns, item, begin, now, looked)
-    if not found and within.has_loops and not _within.get():  # each of which may be followed alone
+    if not found and some.value and within.has_loops and not _within.get():  # each of which may be followed alone
         graph.looked = looked
-        now = _taken(turn, turns, item, state)
+        now = _taken(turn, turns, item, first)
     if not found:
         return now if some.value else first
     given = [np.nan if x is UNBOUND else x for x in first]
