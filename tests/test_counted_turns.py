@@ -212,13 +212,21 @@ def test_every_reader_has_the_number_of_the_inputs_or_none(bodies: bool, every: 
             assert np.isnan(found[nodes[k]]) or found[nodes[k]] == pytest.approx(own, rel=1e-12), (every[k], each)
 
 
-@pytest.mark.parametrize("line", NESTED[14:])
-def test_a_loop_that_is_not_followed_says_so_alone(line: str, tmp_path: Path) -> None:
-    """What stands before it has names of its own, which tell too; one of them takes no turn now."""
+LEFT = (
+    "s = 0.0\nfor i in range(g.m, g.n):\n    for k in range((i + 1)**2):\n        s += g.x\n"
+    "    if s > g.x:\n        break\nNAME = s * 1.0"
+)
+
+
+@pytest.mark.parametrize("draws", [False, True])
+@pytest.mark.parametrize("line", [*NESTED[14:], LEFT])
+def test_a_loop_that_is_not_followed_says_so_alone(line: str, draws: bool, tmp_path: Path) -> None:
+    """What stands before it has names of its own, which tell too; it takes no turn now, or none for other inputs."""
     sheet = sheet_of(tmp_path, each=[line])
-    recording = recorded(sheet, every=1, draws=True, lists=True)
-    node, guards = recording.values["y_0"].re, [guard.holds for guard in recording.looked["y_0"]]
-    for each in OTHER:
+    recording = recorded(sheet, every=1, draws=draws, lists=draws)
+    node = recording.values["y_0"].re
+    guards = [guard.holds for guard in recording.looked["y_0"]] if draws else [*recording.guards]
+    for each in [*OTHER, {"m": 5}]:
         (own,) = expected(sheet, each, [line])
         found = numbers([node, *guards], {recording.inputs[name]: float(value) for name, value in each.items()})
         if all(found[holds].all() for holds in guards) and not np.isnan(found[node]):

@@ -146,13 +146,13 @@ def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any
     state = tuple(of_now(x, always=True) if isinstance(x, Quantity) else x for x in first)
     with _turns_of(_Within(of_any=False)) as within:
         now = _taken(turn, turns, item, state)
-        if not some.value:
-            graph.see((~some).re)
-            now = _supposed(turn, turns, item, state)
+        graph.see(some.re if some.value else (~some).re)
+        now = now if some.value else _supposed(turn, turns, item, state)
     begin = (*first[:item], turns.of(0), *first[item + 1 :])
     found = now and _repeated(turn, turns, item, begin, now, looked)
     if not found and some.value and within.has_loops and not _within.get():  # each of which may be followed alone
         graph.looked = looked
+        graph.see(some.re)
         now = _taken(turn, turns, item, first)
     if not found:
         return now if some.value else first
