@@ -274,3 +274,26 @@ ITERATIONS = [
 @pytest.mark.parametrize("lines", [*CONSTRUCTS, *ITERATIONS])
 def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
     assert_never_stale(lines, tmp_path)
+
+
+COUNTED = "y = 0.0\nfor i in range(g.n**2):\n    y = y + 1.0"  # what nobody follows for another number
+FORMER = [  # of which the value before is left, or added to
+    f"{COUNTED}\ny += g.F",
+    f"{COUNTED}\nfor j in range(2):\n    y *= g.a",
+    f"{COUNTED}\nif g.F > 3:\n    y = g.a",
+    f"{COUNTED}\nif g.F > 3:\n    y = g.a\nelif g.a > 0.8:\n    y = 2.0",
+    f"{COUNTED}\nfor j in range(g.n - 5):\n    y = g.a",
+    f"{COUNTED}\nj = g.F\nwhile j > 3:\n    y, j = g.a, j - 1",
+    "y = g.F\nfor i in range(3):\n    y -= math.gamma(i + g.a + 1)",
+    "y = g.F\nif math.gamma(g.a + 1) > 3:\n    y = 5.0",
+    "y = g.F\ntry:\n    y = math.gamma(g.a + 1) / 0.0\nexcept ZeroDivisionError:\n    pass",
+    "y = g.F\nfor i in range(int(math.gamma(g.a + 1) - 1)):\n    y = 2.0",
+    "y = g.F\ny += math.gamma(g.a + 1)",
+    "y, k = g.F, 0\nwhile math.gamma(k + g.a) < 5:\n    k += 1\n    y *= 2",
+]
+
+
+@pytest.mark.parametrize("lines", FORMER)
+def test_what_a_name_was_before_is_no_number_of_other_inputs(lines: str, tmp_path: Path) -> None:
+    """A statement that only adds to a name, or may leave it, takes over what stood behind it."""
+    assert_never_stale(lines, tmp_path)

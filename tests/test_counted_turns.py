@@ -43,6 +43,7 @@ FOLLOWED = [
     "s = 0.0\nfor i in range(g.n, 0, -1):\n    s = (s + 1 / i) * g.x\nNAME = s",
     "s = 0.0\nfor i in np.arange(1, g.m + 3):\n    s += g.x**i / i\nNAME = s * 1.0",
     "s = 0.0\nfor t in np.linspace(0.0, g.x, g.m + 2):\n    s += np.sin(t)\nNAME = s",
+    "s, t = 0.0, g.x\nfor i in range(g.n, 0, -1):\n    t -= 0.5\n    s = 0.25\nNAME = s + t",
     "s, term = 0.0, 1.0\nfor i in range(1, g.n + 1):\n    term *= g.x / i\n    s += term\nNAME = s",
     "p = 1.0\nfor i in range(g.m, g.n):\n    p *= g.x + 1 / (i + 1)\nNAME = p",
     "a, b = 0.0, g.x\nfor _ in range(g.n):\n    a, b = b, a + b\nNAME = a",

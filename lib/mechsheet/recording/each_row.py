@@ -65,9 +65,10 @@ def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: A
 
 
 def sums(kinds: str, f: FunctionType, held: Sequence[Any], *sources: Any) -> list[Any] | None:
-    """Sums of each of the values that ``f`` gives for a row, or lists or arrays of them; None where not followed.
+    """Sums of each of the values that ``f`` gives for a row, or lists or arrays of them, and whether there are rows.
 
-    The lists and arrays were ``held`` before: empty, or of as many elements, of which each is set.
+    None where they are not followed. The lists and arrays were ``held`` before: empty, or of as many elements, of which
+    each is set.
     """
     every = [_unselected(source) for source in sources]
     each, whole = kinds.split(), iter(held)
@@ -77,11 +78,14 @@ def sums(kinds: str, f: FunctionType, held: Sequence[Any], *sources: Any) -> lis
     if all(holds is None for _, holds in every):
         found = per_row.each_of(f, *(source for source, _ in every))
         made = None if found is None else [*map(_made, each, found, before)]
-        return None if made is None or any(x is None for x in made) else made
+        if made is None or any(x is None for x in made):
+            return None
+        count = per_row.first_of(every[0][0]).count(0)
+        return [*made, count > 0 if isinstance(count, Quantity) else True]
     rows = None if way_may_change(f) or held else each_row(lambda *row: (True, f(*row)), *sources)
     if rows is None or not rows.some.value:  # the names of the loop are bound to its last row
         return None
-    return [EachRow(part, rows.holds).of("sum") for part in rows.parts.parts]
+    return [*(EachRow(part, rows.holds).of("sum") for part in rows.parts.parts), rows.some]
 
 
 def _made(kind: str, column: Quantity, before: Any) -> Any:

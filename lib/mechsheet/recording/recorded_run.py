@@ -197,7 +197,8 @@ class Run(OfPositions):
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
-        before = Memory((self.names.get(name) for name in reads - {*self.asked}), self.names)
+        under = reads | facts.former
+        before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
         differs: list[str] = []
         try:
@@ -220,10 +221,10 @@ class Run(OfPositions):
                 raise NotRecorded(", ".join(differs) + differ)
             if any(not _PLACES.isdisjoint(names_of(code)) for code in codes):
                 decided(graph)
-            if any(self.built(final)) and self.leaves(facts, reads, codes, before):
+            if any(self.built(final)) and self.leaves(facts, under, codes, before):
                 raise NotRecorded("its columns are built without table or figure")
         except (Exception, NotRecorded) as error:
-            rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, reads, codes, before)
+            rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, under, codes, before)
             self.keep(stage, touched, final, self.why(error, reads), rests_on)
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
@@ -246,9 +247,9 @@ class Run(OfPositions):
             if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
                 own = self.namespace.get(name, made)
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
-            former = self.looked.get(name, ()) if name in facts.turned else ()  # which stands where there is no turn
-            self.looked[name] = (*rests.values(), *former)
-            self.hold(name, rests.values())
+            former = self.looked.get(name, ()) if name in facts.former else ()
+            self.looked[name] = *rests.values(), *former
+            self.hold(name, self.looked[name])
             if isinstance(value := self.names.get(name), Selected) and name in self.lines and not value.draws:
                 self.note(Guard(value.same, graph.line))
         each = [

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
-from mechsheet.recording.ways import turned
+from mechsheet.recording.ways import former, turned
 from mechsheet.worksheet import source
 from mechsheet.worksheet.check import Check, check, check_slope
 from mechsheet.worksheet.find import find
@@ -39,7 +39,7 @@ class Statement(NamedTuple):
     heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
-    turned: frozenset[str]  # names that each turn of a loop binds first
+    former: frozenset[str]  # names that may be what they were before, or are made of that
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
 
@@ -61,7 +61,7 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
-        own,
+        frozenset(former(statement)),
         tuple(_columns(statement)),
     )
 

@@ -18,7 +18,7 @@ _Added = tuple[str, ast.operator | str, ast.expr]  # what is added to a name, or
 def as_sums(node: ast.For) -> list[ast.stmt] | None:
     """A loop over rows as the sums that it makes, where they are followed, else as it is; None of any other loop.
 
-    What is named in it beside, and the row, have the values of the last one in the end.
+    What is named in it beside, and the row, have the values of the last one in the end, where there is one.
     """
     rows = rows_of(node.target, node.iter)
     if rows is None or node.orelse or any(isinstance(part, _SCOPES) for part in ast.walk(node)):
@@ -51,12 +51,10 @@ def as_sums(node: ast.For) -> list[ast.stmt] | None:
         lines.append(ast.Assign([ast.Name(name, ast.Store())], total))
     lines += [ast.Expr(call("settled", node, ast.Name(name, ast.Load()))) for name in whole]
     last = [ast.Subscript(copy.deepcopy(source), ast.Constant(-1), ast.Load()) for source in rows[1]]
-    lines += [ast.Assign([ast.Name(name, ast.Store())], value) for name, value in zip(rows[0], last, strict=True)]
-    lines += [
-        line
-        for line in copy.deepcopy(node.body)
-        if isinstance(line, ast.Assign) and not steps.keys().isdisjoint(bound(line))
-    ]
+    bind = [ast.Assign([ast.Name(name, ast.Store())], value) for name, value in zip(rows[0], last, strict=True)]
+    done = (line for line in copy.deepcopy(node.body) if isinstance(line, ast.Assign))
+    some = ast.Subscript(known, ast.Constant(-1), ast.Load())
+    lines.append(ast.If(some, [*bind, *(line for line in done if not steps.keys().isdisjoint(bound(line)))], []))
     either = ast.If(known, [ast.copy_location(line, node) for line in lines], [node])
     return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (asked, either)]
 

@@ -4,6 +4,7 @@ import ast
 from collections.abc import Iterable, Iterator
 
 from mechsheet.recording.forms import SCOPED
+from mechsheet.worksheet.source import bound
 
 
 def only_bind(lines: Iterable[ast.stmt], *others: type[ast.stmt]) -> bool:
@@ -45,6 +46,36 @@ def turned(lines: Iterable[ast.AST]) -> set[str]:
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             loaded.append(node)
     return targets.difference(part.id for part in loaded if id(part) not in inside)
+
+
+def former(line: ast.stmt) -> set[str]:
+    """Names that may be what they were before a statement, or are made of that: bound by some ways, or added to."""
+    match line:
+        case ast.AugAssign(ast.Name(name)):
+            return {name}
+        case ast.If() | ast.For() | ast.While() | ast.Try() | ast.TryStar() | ast.Match() | ast.With():
+            inner = [each for each in ast.iter_child_nodes(line) if isinstance(each, ast.stmt)]
+            inner += [each for case in getattr(line, "cases", ()) for each in case.body]
+            inner += [each for handler in getattr(line, "handlers", ()) for each in handler.body]
+            made = set[str]().union(*map(former, inner))
+            return made | ({*bound(line)} - _always(line))
+    return set()
+
+
+def _always(line: ast.stmt) -> set[str]:
+    """Names that a statement binds whatever way it takes."""
+    match line:
+        case ast.If(_, body, orelse):
+            return _by_all(body) & _by_all(orelse)
+        case ast.With():
+            return {*bound(line)}
+        case ast.For() | ast.While() | ast.Try() | ast.TryStar() | ast.Match() | ast.AugAssign():
+            return set()
+    return {*bound(line)}
+
+
+def _by_all(lines: list[ast.stmt]) -> set[str]:
+    return set[str]().union(*map(_always, lines))
 
 
 def unbound_left(node: ast.For) -> ast.stmt:
