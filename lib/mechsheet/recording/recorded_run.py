@@ -197,7 +197,7 @@ class Run(OfPositions):
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
-        under = reads | facts.former
+        under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
         before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
         differs: list[str] = []
@@ -248,7 +248,9 @@ class Run(OfPositions):
                 own = self.namespace.get(name, made)
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
             former = self.looked.get(name, ()) if name in facts.former else ()
-            self.looked[name] = *rests.values(), *former
+            inputs = self.recording.inputs.values() if name in unknown else ()
+            of_now = (Guard(graph.same(leaf), line) for leaf in inputs)
+            self.looked[name] = *rests.values(), *former, *of_now
             self.hold(name, self.looked[name])
             if isinstance(value := self.names.get(name), Selected) and name in self.lines and not value.draws:
                 self.note(Guard(value.same, graph.line))
