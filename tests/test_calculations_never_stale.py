@@ -297,3 +297,22 @@ FORMER = [  # of which the value before is left, or added to
 def test_what_a_name_was_before_is_no_number_of_other_inputs(lines: str, tmp_path: Path) -> None:
     """A statement that only adds to a name, or may leave it, takes over what stood behind it."""
     assert_never_stale(lines, tmp_path)
+
+
+OF_TWO = "z = np.array([1.0, g.a])\n"
+SHARED = [  # an array with another name, changed in place for other inputs alone
+    f"{OF_TWO}w = z\nif g.F > 3:\n    z += g.F\ny = w.sum() + g.a",
+    f"{OF_TWO}w = z\nif g.F > 3:\n    z[0] = g.F\ny = w.sum() + g.a",
+    f"{OF_TWO}w = z[:1]\nfor i in range(g.n - 5):\n    z += g.a\ny = w.sum() + g.a",
+    f"{OF_TWO}w = {{'first': z}}\nfor i in range(g.n - 5):\n    z += g.a\ny = w['first'].sum() + g.a",
+    f"{OF_TWO}w = z\nwhile g.n - 4 > z[0]:\n    z += g.a\ny = w.sum() + g.a",
+    "z = np.array([1.0, 2.0])\nw = z\nfor i in range(g.n - 5):\n    z += g.a\ny = w.sum() + g.a",
+    f"{OF_TWO}w = z\nz += g.a - 0.7\ny = w.sum() * 1.0",
+    "L = [g.a]\nM = L\nfor i in range(g.n - 5):\n    L.append(L[-1] * g.a)\ny = sum(M)",
+]
+
+
+@pytest.mark.parametrize("lines", SHARED)
+def test_an_array_has_the_same_numbers_under_each_of_its_names(lines: str, tmp_path: Path) -> None:
+    """What changes it in place says so, or is seen, at all of them."""
+    assert_never_stale(lines, tmp_path)

@@ -91,10 +91,23 @@ GATHERED = [  # in lists and arrays, which a workbook has as long as now
     "        y[k] = y[k - 1] * (1 + g.x) / k\n    return y\nNAME = lift(g.n)[-1] + lift(g.m + 1).sum()",
     "v, w, s = np.ones(g.n + 1), np.zeros(g.n + 1), 0.0\nfor i in range(g.n + 1):\n    v[i] = g.x**i\n"
     "    w[i] = i - 1\n    s += g.x\nNAME = v @ w + s",
+    "t, x, v = [0.0], [g.x], [0.0]\nfor i in range(g.n):\n    v.append(v[-1] - 0.1 * x[-1])\n"
+    "    x.append(x[-1] + 0.1 * v[-1])\n    t.append(t[i] + 0.1)\n"
+    "NAME = x[-1] + max(v) + np.array(t).sum() + np.dot(x, v) + len(t)",
+    "L = [0.0, 1.0]\nfor i in range(g.n):\n    if L[-1] > 2:\n        L.append(L[-1] - g.x)\n    else:\n"
+    "        L.append(L[-2] + g.x)\n    L[-1] *= 0.9\n    L.append(len(L) * g.x)\nNAME = max(L) + L[-1] + L[-2]",
+    "def settling(count):\n    y, s = [0.5], 0.0\n    for k in range(count):\n        z = y[-1]\n"
+    "        for j in range(3):\n            z += g.x * (1 - z) * 0.1\n        y.append(z)\n        s += z\n"
+    "    return y[-1] + s + sum(y)\nNAME = settling(g.n) + settling(2 * g.m)",
+    "v, s = np.ones(g.n + 1), 0.0\nfor i in range(g.n):\n    z = v[i] * g.x\n    v[i + 1] = z + 0.1\n    s += z\n"
+    "NAME = v[-1] + s",
+    "z = [1 + 1j]\nfor i in range(g.n):\n    z.append(z[-1] * np.exp(1j * g.x))\nNAME = abs(z[-1] - 1) + sum(z).real",
     "L = [1.0]\nfor i in range(g.m):\n    L.append(g.x * i)\nNAME = sum(L)",
     "v = np.zeros(g.m + 3)\nfor i in range(g.m):\n    v[i] = g.x\nNAME = v.sum()",
     "v = np.zeros(g.m, int)\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = v.sum() * 1.0",
     "v = np.zeros(g.m)\nw = v\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = w.sum() * 1.0",
+    "L = [1.0]\nM = L\nfor i in range(g.m):\n    L.append(L[-1] * g.x)\nNAME = sum(M) * 1.0",
+    "L = [1.0]\nfor i in range(g.m):\n    L.append(L[-1] * g.x)\n    if L[-1] < 0.4:\n        break\nNAME = sum(L)",
 ]
 NESTED = [  # a workbook takes as many turns of each as now
     "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m):\n        s += g.x**(i + j)\nNAME = s",
@@ -154,7 +167,7 @@ def recorded(sheet: cells.Worksheet, **options: Any) -> Recording:
     return record({**names, "__file__": sheet.path}, **options)
 
 
-@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 13), (NESTED, 14)])
+@pytest.mark.parametrize(("every", "followed"), [(FOLLOWED, len(FOLLOWED)), (GATHERED, 19), (NESTED, 14)])
 def test_a_page_takes_as_many_turns_as_its_inputs_say(
     every: Sequence[str], followed: int, blank: Page, tmp_path: Path
 ) -> None:

@@ -40,18 +40,18 @@ UNFOLLOWED = [
 
 
 class Writer:
-    """Statements that change ``s``, ``t``, an array ``y`` of g.n + 1 elements and one ``z`` of 12."""
+    """Statements that change ``s``, ``t``, an array ``y`` of g.n + 1 elements, one ``z`` of 12 and a list ``q``."""
 
     def __init__(self, random: Random) -> None:
         self.random, self.one = random, random.choice
 
     def lines(self) -> list[str]:
-        begin = "s, t = 0.0, g.x\ny, z = np.zeros(g.n + 1), np.zeros(12)"
+        begin = "s, t, q = 0.0, g.x, [0.5]\ny, z = np.zeros(g.n + 1), np.zeros(12)"
         more = [self.one(["y[0] = 1.0", "y = y + g.x", *UNFOLLOWED]) for _ in range(self.random.randint(0, 2))]
         after = [
             line for _ in range(self.random.randint(0, 2)) for line in self.one([self.loop, self.statement])("", ())
         ]
-        return [begin, *more, *self.loop("", ()), *after, "NAME = s + t + y.sum() + z.sum() + len(y)"]
+        return [begin, *more, *self.loop("", ()), *after, "NAME = s + t + y.sum() + z.sum() + len(y) + sum(q) + len(q)"]
 
     def loop(self, indent: str, outer: Sequence[str]) -> list[str]:
         name = "ijk"[len(outer)]
@@ -70,13 +70,17 @@ class Writer:
         elif kind < 0.75:
             yield f"{indent}if {self.number(turns)} {self.one(['<', '>', '!='])} {self.number(turns)}:"
             yield f"{indent}    {self.one(['break', 'continue', 's = 0.25', f't = {self.number(turns)}'])}"
+        elif kind < 0.8:
+            yield f"{indent}q.append({self.number(turns)} * 0.5)"
         elif len(turns) < 2:
             yield from self.loop(indent, turns)
         else:
             yield f"{indent}s += {self.number(turns)}"
 
-    def element(self, turns: Sequence[str]) -> str:
+    def element(self, turns: Sequence[str], where: str = "") -> str:
         turn = self.one(turns)
+        if where == "read" and self.random.random() < 0.3:
+            return self.one(["q[-1]", "q[0]", "len(q)"])
         return self.one([f"y[{turn} % (g.n + 1)]", "y[0]", "y[-1]", f"z[{turn} % 12]", f"z[({turn} + 3) % 12]"])
 
     def number(self, turns: Sequence[str], deep: int = 0) -> str:
@@ -84,7 +88,7 @@ class Writer:
         if deep > 2 or kind < 0.4:
             return self.one(["s", "t", "g.x", "0.5", "2", *turns])
         if turns and kind < 0.6:
-            return self.element(turns)
+            return self.element(turns, "read")
         return f"({self.number(turns, deep + 1)} {self.one('+-*')} {self.number(turns, deep + 1)})"
 
 

@@ -31,7 +31,11 @@ def put(array: Any, key: Any, value: Any) -> Any:
         return array
     graph = next(quantities([array, key, value])).graph
     graph.gone.append(weakref.ref(owner(array)))
-    old, new = lift(graph, array), lift(graph, value)
+    return _put(lift(graph, array), key, value)
+
+
+def _put(old: Quantity, key: Any, value: Any) -> Any:
+    new = lift(old.graph, value)
     if not has_quantity([key]):
         old = of_now(old)
     new = new.astype(int) if old.dtype.kind in "iu" else new
@@ -41,11 +45,7 @@ def put(array: Any, key: Any, value: Any) -> Any:
 
 def placed(array: Any, key: Any, value: Any) -> Any:
     """The same in a turn that may be taken once more: what was there before stays as it is."""
-    if not isinstance(array, np.ndarray):
-        return put(array, key, value)
-    graph = current.get()
-    graph.gone.append(weakref.ref(array))
-    return put(lift(graph, array), key, value)
+    return _put(lift(current.get(), array), key, value)
 
 
 def of_now(old: Quantity, always: bool = False) -> Quantity:
@@ -173,12 +173,22 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     return new
 
 
+def former(values: list[Any]) -> list[Any]:
+    """Arrays before the turns that change them, for who looks behind those whether they are known still."""
+    return [weakref.ref(owner(array)) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
+
+
+def left(arrays: list[Any]) -> None:
+    """End the changes of arrays by the turns of a loop: nobody else may know one as it was before."""
+    if any(array() is not None for array in arrays):
+        raise NotRecorded("an array is changed that has another name too")
+
+
 def settled(new: Any) -> None:
     """End the change of an array for which another one has been put: nobody else may know the old one."""
     if isinstance(new, Quantity):
         gone, new.graph.gone = new.graph.gone, []
-        if any(array() is not None for array in gone):
-            raise NotRecorded("an array is changed that has another name too")
+        left(gone)
 
 
 def part(number: Any, name: str, value: Any) -> Any:
@@ -196,5 +206,5 @@ def part(number: Any, name: str, value: Any) -> Any:
 
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
-    "part": part,
+    "part": part, "former": former, "left": left,
 }  # fmt: skip

@@ -75,14 +75,6 @@ def counted(*ends: Any) -> Any:
     return Turns(ends, start, step, distance if step == 1 else -(-distance // step))
 
 
-def setting(items: Any, *containers: Any) -> bool:
-    """Whether a loop that sets elements of arrays, and of nothing else, has so many turns as the inputs say."""
-    if not isinstance(items, Turns) or not all(isinstance(x, ARRAYS) or x is UNBOUND for x in containers):
-        return False
-    items.sets = True
-    return True
-
-
 class _Within:
     """What is recorded of the loops in a turn of another one: nothing more than its own run, or any turn of them."""
 
@@ -354,5 +346,4 @@ CALLS: dict[str, Any] = {
     "iterated": iterated,
     "all_of": all_of,
     "counted": counted,
-    "setting": setting,
 }

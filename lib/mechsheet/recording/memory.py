@@ -47,6 +47,7 @@ class Memory:
             value = waiting.pop()
             if isinstance(value, Quantity):
                 self.nodes.extend(value.nodes)
+                self.held[id(owner(value))] = (), []  # which nobody holds by this
             elif not (isinstance(value, _LEAVES) or id(value) in self.held or _foreign(value, own)):
                 value = owner(value)
                 parts = _parts(value)

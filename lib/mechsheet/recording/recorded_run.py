@@ -17,7 +17,7 @@ from mechsheet.quantities.arithmetic import sized
 from mechsheet.quantities.graph import Gap, Graph, Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, leaves_of
 from mechsheet.quantities.node import Node, conditions
-from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
+from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift, owner
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.quantities.unrepeatable import Unrepeatable
@@ -200,8 +200,13 @@ class Run(OfPositions):
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
         before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
+        changed_in_place = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
+        arrays = {id(owner(x)) for x in changed_in_place if x.ndim}
+        others = before.named(self.names, arrays).difference(touched)
         differs: list[str] = []
         try:
+            if others:
+                raise NotRecorded("an array is changed that has another name too")
             exec(facts.code, self.names)
             if graph.untold:
                 alone = {
@@ -226,7 +231,7 @@ class Run(OfPositions):
         except (Exception, NotRecorded) as error:
             rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, under, codes, before)
             self.keep(stage, touched, final, self.why(error, reads), rests_on)
-            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set())) | others
             self.lose(stage, beside.difference(touched), later, self.why(error, reads))
             stage.finish(lambda x: x)
             return

@@ -12,7 +12,18 @@ import textwrap
 from types import CodeType, FunctionType
 from typing import Any
 
-from mechsheet.recording import choices, conditions, each_row, in_place, kept, loops, per_row, raised, rows_checked
+from mechsheet.recording import (
+    appended,
+    choices,
+    conditions,
+    each_row,
+    in_place,
+    kept,
+    loops,
+    per_row,
+    raised,
+    rows_checked,
+)
 from mechsheet.recording.by_turn import by_turn
 from mechsheet.recording.forms import (
     OF_KEPT,
@@ -51,7 +62,7 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
-CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS
+CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (

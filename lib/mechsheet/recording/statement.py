@@ -39,6 +39,7 @@ class Statement(NamedTuple):
     heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
+    in_place: frozenset[str]  # names of which it changes the value in place, where that is an array
     former: frozenset[str]  # names that may be what they were before, or are made of that
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
@@ -61,6 +62,7 @@ def facts(statement: ast.stmt, path: str) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
+        frozenset(_in_place(nodes)),
         frozenset(former(statement)),
         tuple(_columns(statement)),
     )
@@ -223,6 +225,14 @@ def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
             case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add" | "sort")):
                 yield name
             case ast.Subscript(ast.Name(name), ctx=ast.Store()):
+                yield name
+
+
+def _in_place(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    """Names of arrays that a statement changes in place."""
+    for node in nodes:
+        match node:
+            case ast.AugAssign(ast.Name(name)) | ast.Subscript(ast.Name(name), ctx=ast.Store()):
                 yield name
 
 
