@@ -47,6 +47,12 @@ def test_agreement_within_more_than_a_thousandth_is_none(part, size, off):
         assert "more than a thousandth of what is compared" in str(c) and str(c).startswith("not evaluated  R12")
 
 
+def test_what_is_infinite_is_written_alike_in_a_check_and_in_a_line():
+    c = check("moment", np.inf, 2500.0, "N*m")
+    assert str(c) == "FAIL  moment: ∞ <= 2500 N·m" and "∞ &gt; 2500" in html(c)
+    assert "−∞ &lt; 2" in html(check("gap", -np.inf, at_least=2.0, unit="m"))
+
+
 def test_a_part_of_nothing_says_why_it_lets_nothing_through():
     c = check("balance", [0.0, 9e-13], 1e-9, "N", of=[0.0, 0.0])
     assert not c.passed and "what is compared is 0, and so is any part of it" in str(c)

@@ -457,6 +457,18 @@ def test_what_waits_for_a_deleted_cell_is_told_in_one_line():
     assert [n.cell for n in told_by.failed(found.cells, {"M", "A"})] == ["c6"], "no second line for one cause"
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_a_line_without_a_number_is_noted_and_what_rests_on_it_is_not():
+    code = "A = np.sqrt(g.D - g.L)  # [m] root\nB = 2 * A  # [m] twice\ntypeset()"
+    found = bar("import numpy as np", code, "C = np.log([1.0, -g.L, g.L])  # [-] log\nD = (1, 2\n)", "d, e = 2  # [m]")
+    notes = list(told_by.lost(found.cells, found.names))
+    assert found.texts(notes) == [
+        "c4: line 1, A = np.sqrt(g.D - g.L): no number",
+        "c5: line 1, C = np.log([1.0, -g.L, g.L]): no number at 1 of 3 places: 2",
+    ]
+    assert not any(note.mistake for note in notes)
+
+
 def test_what_would_be_left_out_without_a_word_is_told():
     code = "A = 2 * g.D\nn = 3\nshown = [n]\nB = A * g.L  # [m**2] area\n"
     code += "import numpy as np\norder = np.argsort([1.0, 0.5])\n"

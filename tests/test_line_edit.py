@@ -11,7 +11,7 @@ import pytest
 from conftest import ROOT
 from hypothesis import settings
 
-from mechsheet.page import in_place
+from mechsheet.page import in_place, values
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
@@ -181,6 +181,14 @@ def test_what_is_shown_as_one_types_alters_nothing_of_the_page(new: str) -> None
     shown = in_place._computed((), "k", "k = 1", f"k = {new}  # [-] k", False, dict(names))
     assert "is no number: it has no [unit]" in shown or "__imul__" in new
     assert names["phi"].tolist() == [3.0, 1.0] and names["parts"] == [1, 2] and names["rows"] == {"b": [2]}
+
+
+def test_where_a_line_has_no_number_is_told_as_one_types() -> None:
+    names = {"x": np.array([1.0, 2.0, 3.0]), "sqrt": np.sqrt}
+    shown = in_place._computed((), "k", "k = 1", "k = sqrt(x - 2)  # [-] root", False, dict(names))
+    assert f"{values.NOTE} no number at 1 of 3 places: 1" in shown
+    shown = in_place._computed((), "k", "k = 1", "k = sqrt(x)  # [-] root", False, dict(names))
+    assert values.NOTE not in shown
 
 
 def test_what_computes_for_long_as_one_types_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:

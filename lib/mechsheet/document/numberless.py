@@ -21,9 +21,9 @@ class Numberless(NamedTuple):
     where: str
 
 
-def numberless(names: Mapping[str, Any]) -> Iterator[Numberless]:
-    """The lines of the namespace of a run where numbers get lost: at them, not at what rests on them."""
-    for line in registry(names).values():
+def numberless(names: Mapping[str, Any], known: Mapping[str, Formula] | None = None) -> Iterator[Numberless]:
+    """The lines, all or the ``known`` ones, where a run's numbers get lost: at them, not at what rests on them."""
+    for line in (registry(names) if known is None else known).values():
         lost = _lost(names[line.name])
         if lost.any() and not any(_lost(_read(names, name)).any() for name in names_read(line)):
             yield Numberless(line, _where(lost))

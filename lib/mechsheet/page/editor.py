@@ -5,6 +5,7 @@ import builtins
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from traceback import walk_tb
 from types import FrameType
@@ -12,10 +13,12 @@ from typing import Any
 
 from mechsheet import units
 from mechsheet.document.left_out import left_out
+from mechsheet.document.numberless import numberless
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.cells import Cell, Worksheet, compiled
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand, declared_in, inputs_of
 from mechsheet.worksheet.title import Note
@@ -56,6 +59,7 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
             notes = [*unknown(cells, names, gone), *unsaid(cells, names), *unfit(cells, names)]
             known = {note.cell for note in notes}
             notes += [note for note in failed(cells, gone) if note.cell not in known]
+            notes += lost(cells, names)
             if notes != told:
                 told = notes
                 show(notes)
@@ -129,6 +133,15 @@ def unsaid(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator
     ran = [cell for cell in cells if cell.status == "success"]
     for n, line, why in left_out(source.of_texts(tuple((cell.code, cell.filename) for cell in ran)), names):
         yield Note(ran[n].cell_id, why if line is None else f"{_line(ran[n], line)}: {why}")
+
+
+def lost(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
+    """Lines that have run and have no number, or none at some places, though what they read has."""
+    for cell in cells:
+        if cell.status == "success":
+            with suppress(SheetError):  # what cannot be read `unsaid` tells
+                for line, where in numberless(names, registry(names, source.of_texts(((cell.code, cell.filename),)))):
+                    yield Note(cell.cell_id, f"{_line(cell, line.expression.lineno)}: {where}", mistake=False)
 
 
 def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:

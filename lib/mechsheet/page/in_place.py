@@ -22,6 +22,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document.markup import as_written
+from mechsheet.document.numberless import numberless
 from mechsheet.page import editor, fields, notebook, values
 from mechsheet.page.needing import needing, some
 from mechsheet.page.script import element, script
@@ -177,6 +178,8 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
         told += _unfit(cells, name, was, f"{was}\n{new}" if below else new, new, names)
         if not shown:
             told.append("it is not shown in the document: end the line in # [unit] meaning")
+        own = {row.name: row for row in rows if isinstance(row, Formula) and row.has_value}
+        shown += "".join(f"<div>{values.NOTE} {escape(where)}</div>" for _, where in numberless(names, own))
     return shown + "".join(map(_mistake, told))
 
 
@@ -240,4 +243,4 @@ def _declared(line: str) -> set[str]:
 
 
 def _mistake(text: str) -> str:
-    return f'<div><span class="ms-badge ms-FAIL">mistake</span> {escape(text)}</div>'
+    return f"<div>{values.MISTAKE} {escape(text)}</div>"

@@ -45,6 +45,8 @@ from mechsheet.worksheet.verdict import Verdict
 # Shown by the style sheet that stands where something was refused.
 _LOST = '<span class="ms-badge ms-FAIL">not computed to its end</span>'
 _FAILED = "ms-failed"
+MISTAKE = '<span class="ms-badge ms-FAIL">mistake</span>'
+NOTE = '<span class="ms-badge ms-OPEN">note</span>'
 _TOLD = f'<div class="ms-told" style="display:none">{_LOST} </div>'
 
 
@@ -186,9 +188,9 @@ def _(title: Title) -> str:
 
 
 def _noted(notes: tuple[Note, ...]) -> str:
-    """Mistakes with links to their cells, and the style sheet that tells each under the output of its cell too."""
+    """Notes with links to their cells, and the style sheet that tells each under the output of its cell too."""
     items = "".join(
-        f'<div><span class="ms-badge ms-FAIL">mistake</span> <a href="#cell-{note.cell}">{escape(note.text)}</a></div>'
+        f'<div>{MISTAKE if note.mistake else NOTE} <a href="#cell-{note.cell}">{escape(note.text)}</a></div>'
         for note in notes
     )
     texts = {note.cell: "\n".join(n.text for n in notes if n.cell == note.cell) for note in notes}

@@ -89,7 +89,8 @@ class Check(Shown):
         """Residual and limit as in lines and told apart, with two digits where the residual is only rounding."""
         both = self.residual, self.limit
         if not np.isfinite(both).all():
-            return numbers.significant(both[0], 4), numbers.significant(both[1], 4)
+            residual, limit = (numbers.significant(x, 4).replace("inf", numbers.CELL.infinite) for x in both)
+            return residual, limit
         rounding = self.agrees or abs(both[0]) < 1e-3 * both[1]
         residual, limit = numbers.apart(both, digits=2) if rounding else numbers.in_line(both, "-")
         return residual, limit

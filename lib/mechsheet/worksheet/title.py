@@ -10,10 +10,11 @@ from mechsheet.worksheet.shown import Shown, page
 
 @dataclass(frozen=True)
 class Note:
-    """A mistake in the cell of that id."""
+    """What is told of the cell of that id: a mistake, or what need not be one."""
 
     cell: str
     text: str
+    mistake: bool = True
 
 
 @dataclass(frozen=True)
