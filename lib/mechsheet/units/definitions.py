@@ -61,10 +61,13 @@ _MEANT = {
     "kp": "kgf", "kph": "km/h", "mph": "mile/h", "cc": "cm**3", "ccm": "cm**3", "degF": "degC", "degK": "K",
     "cSt": "mm**2/s", "cP": "mPa*s", "meter": "m", "metre": "m", "second": "s", "minute": "min", "degree": "deg",
     "radian": "rad", "gram": "g", "kilogram": "kg", "newton": "N", "pascal": "Pa", "joule": "J", "watt": "W",
-    "kelvin": "K", "millimeter": "mm", "millimetre": "mm", "centimeter": "cm", "centimetre": "cm",
+    "kelvin": "K", "celsius": "degC", "percent": "%", "tonne": "t", "ton": "t", "liter": "L", "litre": "L",
+    "bar": "bar", "hertz": "Hz", "volt": "V", "ampere": "A", "revolution": "rev", "micron": "um", "kmh": "km/h",
+    "newtonmeter": "N*m", "newtonmetre": "N*m",
     "lbm": "lb", "ozf": "lbf", "lbft": "lbf*ft", "ftlb": "lbf*ft", "inlb": "lbf*inch", "lbin": "lbf*inch",
     "U": "rev", "upm": "rpm", "rps": "rev/s", "cps": "Hz", "torr": "mmHg", "gal": "L", "var": "V*A",
 }  # fmt: skip
+_PREFIX_WORDS = {"kilo": "k", "milli": "m", "mili": "m", "micro": "u", "centi": "c", "mega": "M", "giga": "G"}
 _LIKE = "write units as m, kN*m, rad/s**2 or 1/m"
 
 
@@ -104,7 +107,8 @@ def _known(text: str) -> Unit | str:
     try:
         factor, dims = _product(text)
     except Unreadable:
-        raised = re.sub(r"(?<=[^\W\d_])(-[1-9]|[2-9])", r"**\1", text)  # mm2
+        times = re.sub(r"(?<=[^\W\d_])[.-](?=[^\W\d_])", "*", text)  # N.m, N-m
+        raised = re.sub(r"(?<=[^\W\d_])(-[1-9]|[2-9])", r"**\1", times)  # mm2
         known = raised != text and not isinstance(_known(raised), str)
         return f"unit [{text}] is not known; " + (f"nearest: {raised}" if known else _LIKE)
     except KeyError as error:
@@ -160,7 +164,7 @@ def counted(text: str) -> set[str]:
 
 def nearest(name: str) -> list[str]:
     """Units that are written much like another name, best first; of two that run together their product."""
-    if meant := _MEANT.get(name) or _MEANT.get(name.lower()) or _MEANT.get(name.lower().removesuffix("s")):
+    if meant := _MEANT.get(name) or _in_words(name.lower()) or _in_words(name.lower().removesuffix("s")):
         return [meant]
     known = names()
     if name[-1:] in ("g", "a") and name[:-1] in known and single(name[:-1])[1] == single("Pa")[1]:
@@ -176,6 +180,15 @@ def nearest(name: str) -> list[str]:
     alike = [n for n in known if n.lower() == name.lower()]
     common = [n for n in known if n in DEFINED or n in BASE or n[:1] in "umckMG"]
     return alike[:3] or difflib.get_close_matches(name, common, n=2, cutoff=0.6)
+
+
+def _in_words(name: str) -> str:
+    """The unit of a word, or of one with a prefix before it that the unit takes; nothing where there is none."""
+    for word, prefix in _PREFIX_WORDS.items():
+        unit = prefix + _MEANT.get(name.removeprefix(word), "")
+        if name.startswith(word) and unit != prefix and not isinstance(_known(unit), str):
+            return unit
+    return _MEANT.get(name, "")
 
 
 def constant(name: str) -> float:
