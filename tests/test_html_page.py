@@ -487,6 +487,19 @@ def test_a_unit_is_switched_in_place_wherever_the_quantity_is_shown(
     assert read(page) == first
 
 
+def test_where_a_field_is_least_is_told_in_the_unit_that_is_chosen(
+    document: Callable[..., Path], offline: Page
+) -> None:
+    page = opened(offline, document("guide"))
+    where, unit = page.locator("#line-M .ms-where"), page.locator("#line-phi ms-unit")
+    own = where.inner_text()
+    assert own.startswith("least at φ = 0°") and own.endswith("°")
+    for name, told in (("rad", "least at φ = 0 rad, greatest at φ = 1.8326 rad"), ("°", own)):
+        unit.click()
+        page.get_by_role("menuitemradio", name=name, exact=True).click()
+        expect(where).to_have_text(told)
+
+
 def test_a_long_table_shows_the_rows_at_both_ends(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     table = page.locator("#table-4\\.1 ~ .ms-wide table").first

@@ -95,6 +95,15 @@ def test_a_value_is_written_as_the_library_writes_it(page, unit: str, other: str
     assert [text.replace("&nbsp;", "\N{NO-BREAK SPACE}") for text in found] == wanted
 
 
+def test_a_number_beside_another_follows_the_unit_chosen_where_its_quantity_is_shown(page) -> None:
+    static(page, f"{switched.quantity('phi', 'deg', np.pi)}<p>least at {switched.beside('phi', 'deg', np.pi / 2)}</p>")
+    expect(page.locator("p ms-unit")).to_have_count(0)
+    for name, told in (("rad", "least at 1.5708 rad"), ("°", "least at 90°")):
+        page.locator("ms-unit:visible").click()
+        page.get_by_role("menuitemradio", name=name, exact=True).click()
+        expect(page.locator("p")).to_have_text(told, use_inner_text=True)
+
+
 def test_back_in_its_own_unit_a_table_is_as_it_was(page) -> None:
     column = Column("F", "N", "force", 0, np.array([2.5e3, np.nan]), of="F")
     static(page, values.html(Table("1", "Forces", (column,))))

@@ -11,7 +11,7 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.numbers import Notation
-from mechsheet.worksheet.over import Over
+from mechsheet.worksheet.over import Over, Written
 
 HTML = Notation(
     "−", "none", "∞", "{}\u202f·\u202f10<sup>{}</sup>", "({}, {})", " … ", "°", " %", " {}", "<sup>{}</sup>", "·"
@@ -141,9 +141,13 @@ def compared(check: Check, unit: str, to: Notation = HTML) -> str:
     return f"{residual} {sign} {limit}{part}"
 
 
-def where(field: Any, over: Over | None) -> str:
+def _in_its_unit(line: Formula, x: Any) -> str:
+    return numbers.value(x, line.unit, HTML)
+
+
+def where(field: Any, over: Over | None, written: Written = _in_its_unit) -> str:
     """Where a field is least and where it is greatest, if its numbers do not stand in full."""
-    places = over.places(field, HTML, named) if over else None
+    places = over.places(field, named, written) if over else None
     return f' <span class="ms-where">least at {places[0]}, greatest at {places[1]}</span>' if places else ""
 
 

@@ -251,8 +251,9 @@ class Follower:
             held = lift(self.recording.graph, held)
         if not axis or not isinstance(held, Quantity):
             return None
-        factor, behind = units.parse(axis.line.unit).factor, numbers.behind(axis.line.unit, HTML)
-        return {"key": self.key(held.re), "named": named(axis.line.name), "factor": factor, "behind": behind}
+        of, unit = axis.line.name, axis.line.unit
+        told = {"factor": units.parse(unit).factor, "behind": numbers.behind(unit, HTML)}
+        return {"key": self.key(held.re), "named": named(of), "of": of, "unit": self.unit(unit), **told}
 
     def put_in(self, line: Line, **moved: Any) -> str:
         """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""

@@ -22,7 +22,7 @@ const show = {
     const parts = spec.keys?.map(key => along(results.values[key], positionOf(spec)));
     const known = parts && parts.every(part => part !== undefined);
     const isNothing = known && isNothingBut(parts, spec, results.values);
-    const where = known && spec.over && !isNothing ? whereText(parts, spec.over, results.values) : "";
+    const where = known && spec.over && !isNothing ? whereText(parts, spec.over.map(axisNow), results.values) : "";
     const text = known && (isNothing ? "≈ " : "") + valueText(isNothing ? parts.map(() => 0) : parts, ...unitNow(spec).slice(1));
     set(element, known ? text + where : "");
     return Boolean(known);

@@ -3,7 +3,8 @@ const chosen = new Map(); // by the name of what is shown, while the page is ope
 
 const offersOf = spec => told.units[spec.unit] ?? [];
 const unitNow = spec => offersOf(spec).find(([label]) => label === chosen.get(spec.of)) ?? offersOf(spec)[0];
-const isSwitched = spec => [spec, ...(spec.columns ?? [])].some(each => each.of && each.unit && chosen.has(each.of));
+const isSwitched = spec =>
+  [spec, ...(spec.columns ?? []), ...(spec.over ?? [])].some(each => each?.of && each.unit && chosen.has(each.of));
 
 // A column in the unit that is chosen, not finer than it is in its own; of its greatest number five digits are enough.
 function inUnit(column, results) {
@@ -14,6 +15,13 @@ function inUnit(column, results) {
   const before = Number(Math.max(0, ...sizes).toExponential().split("e")[1]) + 1;
   const same = column.decimals + Math.round(Math.log10(factor / column.factor));
   return {...other, decimals: column.power ? column.decimals : Math.max(0, Math.min(same, 5 - before))};
+}
+
+// The quantity along an axis of a field in the unit that is chosen for it where its own numbers are switched.
+function axisNow(axis) {
+  if (!axis || !chosen.has(axis.of)) return axis;
+  const [, factor, behind] = unitNow(axis);
+  return {...axis, factor, behind: behind.replace(/<\/?ms-unit>/g, "")};
 }
 
 // An axis has one unit: that of its first quantity for which another one is chosen; one of several units keeps them.

@@ -66,7 +66,11 @@ def _valued(line: Formula, cleared: Any, namespace: Mapping[str, Any] | None) ->
     text = _switched(_Value(symbol.stem(line.name), line.unit, cleared))
     if namespace is None or not isinstance(cleared, np.ndarray):
         return text
-    return text + where(cleared, over(line.name, namespace))
+    return text + where(cleared, over(line.name, namespace), _beside)
+
+
+def _beside(line: Formula, x: Any) -> str:
+    return switched.beside(symbol.stem(line.name), line.unit, x)
 
 
 def _is_about(shown: str) -> bool:

@@ -41,6 +41,13 @@ def value(of: str, unit: str, text: Callable[[str, Notation], str]) -> str:
     return element("ms-value", f"<span>{text(unit, _SWITCHED)}</span>", of=of, unit=_printed(unit), texts=texts)
 
 
+def beside(of: str, unit: str, x: Any) -> str:
+    """HTML of an SI value in a unit, which follows the one that is chosen where the quantity itself is shown."""
+    texts = {label: numbers.value(x, other, HTML) for label, other in offered(unit).items()}
+    text = numbers.value(x, unit, HTML)
+    return element("ms-value", f"<span>{text}</span>", of=of, unit=_printed(unit), texts=texts) if texts else text
+
+
 def quantity(of: str, unit: str, values: Any) -> str:
     """HTML of SI values in a unit, which follows the unit that is chosen; few numbers are written anew by the page."""
     field = np.asarray(values)

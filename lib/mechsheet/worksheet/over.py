@@ -22,14 +22,17 @@ class Axis(NamedTuple):
     values: NDArray[Any]
 
 
+Written = Callable[[Formula, Any], str]  # how a number of a line is
+
+
 class Over(NamedTuple):
     """What a field of some shape runs over: along each of its axes a quantity, where one is known."""
 
     shape: tuple[int, ...]
     axes: tuple[Axis | None, ...]
 
-    def places(self, of: Any, to: numbers.Notation, named: Callable[[str], str]) -> tuple[str, str] | None:
-        """Where a field is least and where it is greatest, its quantities as they are ``named``.
+    def places(self, of: Any, named: Callable[[str], str], written: Written) -> tuple[str, str] | None:
+        """Where a field is least and where it is greatest, its quantities as they are ``named`` and ``written``.
 
         Along axes of which no quantity is known the elements are counted from 1. None where the field stands in full,
         and where it is nowhere or everywhere: where it differs by no more than rounding, its place means nothing.
@@ -41,13 +44,13 @@ class Over(NamedTuple):
         if not known.size or known.max() - known.min() <= numbers.rounding(known):
             return None
         least, greatest = (np.argwhere(values == end)[0].tolist() for end in (known.min(), known.max()))
-        return self._place(least, to, named), self._place(greatest, to, named)
+        return self._place(least, named, written), self._place(greatest, named, written)
 
-    def _place(self, at: Iterable[int], to: numbers.Notation, named: Callable[[str], str]) -> str:
+    def _place(self, at: Iterable[int], named: Callable[[str], str], written: Written) -> str:
         told, elements = list[str](), list[tuple[str, str]]()
         for axis, k, n in zip(self.axes, at, self.shape, strict=True):
             if axis:
-                told.append(f"{named(axis.line.name)} = {numbers.value(axis.values[k], axis.line.unit, to)}")
+                told.append(f"{named(axis.line.name)} = {written(axis.line, axis.values[k])}")
             elif n > 1:
                 elements.append((str(k + 1), str(n)))
         if elements:

@@ -69,7 +69,7 @@ def quantities(name: str, namespace: Mapping[str, Any]) -> list[Displayed]:
         parts = {f"{name}.real": shown.real, f"{name}.imag": shown.imag}
         return [Displayed(part, line.unit, line.meaning, x) for part, x in parts.items()]
     field = over(name, namespace)
-    places = field.places(values, numbers.PLAIN, str) if field else None
+    places = field.places(values, str, lambda of, x: numbers.value(x, of.unit, numbers.PLAIN)) if field else None
     return [Displayed(name, line.unit, line.meaning, shown, places)]
 
 
