@@ -142,8 +142,8 @@ def section_2():
 
     Two reserves are compared, both in parts of the implement's weight: by how much heavier it might be before the
     cylinders fail to lift it ($G_\mathrm{S6}$ of the hitch), and before the front axle loses its least load
-    ($G_{S6\,lim}$). The goal is the lesser of the two at the worst position. Transmission angles are those between the
-    two links of each group, $90^\circ$ far from a dead centre and $0^\circ$ in it.
+    ($G_\mathrm{S6,lim}$). The goal is the lesser of the two at the worst position. Transmission angles are those
+    between the two links of each group, $90^\circ$ far from a dead centre and $0^\circ$ in it.
     """)
     return
 
