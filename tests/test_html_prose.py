@@ -49,6 +49,7 @@ SAID = [
     "{', '.join(c.name for c in g.cases if c.P > g.F)} are above, {' and '.join(over)} too",
     "{3 - g.F:+.1f} and {1e6 * g.F:,.0f} {-12345.67895 * g.F:+,.4f} {round(1000 * g.F):,}",
     "{len(g.v) - 5:+} and {g.F / 7:+.2%}",
+    "{g.F:8.2f} N, {g.F:<7.1f} and {round(g.F):6d} | {g.F:^+9.2f} {'10 {:6.2f}'.format(g.F)}",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
 PUT_TOGETHER = [  # or under a name, or one of two

@@ -84,11 +84,12 @@ function significant(x, digits) {
 }
 
 // A number as Python's format writes it: "d" a whole one, "r" as many digits as it takes, ".4g", ".2f" and ".3e"; behind
-// "+" with either sign, behind "," with a comma after each thousand.
+// "+" with either sign, behind "," with a comma after each thousand; behind ">8" with blanks before it, so wide in all.
 function formatted(x, spec) {
-  const [, sign, comma, rest] = spec.match(/^(\+?)(,?)(.*)$/), text = unsigned(x, rest);
+  const [, side, width, sign, comma, rest] = spec.match(/^(?:([<>^])(\d+))?(\+?)(,?)(.*)$/), text = unsigned(x, rest);
   const split = comma ? text.replace(/\d+/, whole => whole.replace(/\d(?=(\d{3})+$)/g, "$&,")) : text;
-  return (text.startsWith("-") ? "" : sign) + split;
+  const whole = (text.startsWith("-") ? "" : sign) + split, before = side === "^" ? (width - whole.length) >> 1 : 0;
+  return side === ">" ? whole.padStart(width) : whole.padStart(whole.length + before).padEnd(width ?? 0);
 }
 
 function unsigned(x, spec) {

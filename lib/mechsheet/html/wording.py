@@ -20,9 +20,9 @@ _MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]|^\s*([-+]|\d+[.)])\s")  # in a 
 def piece(part: Piece, key: Key) -> Any:
     """A text as it stands; of a number its key, its format and what signs stand for others; one of several by a key."""
     match part:
-        case Number(value, spec, instead):
+        case Number(value, spec, instead, blanks):
             spec = spec or ("d" if value.dtype.kind in "iu" else "r")
-            return [key(value.re), spec, *instead]
+            return [key(value.re), blanks + spec, *instead]
         case Either(holds, then, otherwise):
             return {"if": key(holds.re), "then": written(then, key), "else": written(otherwise, key)}
         case OneOf(at, texts, column, name):

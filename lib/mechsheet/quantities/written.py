@@ -14,6 +14,7 @@ from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
 _FORMAT = re.compile(r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|")  # which a reader writes too
+_WIDE = re.compile(r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)")
 _SHORT = re.compile(r"(\+?,?)(\.\d{1,2})?([efg%])")
 
 
@@ -23,11 +24,12 @@ class Number(NamedTuple):
     value: Quantity
     spec: str
     instead: tuple[tuple[str, str], ...] = ()
+    blanks: str = ""  # on which side, and how wide it is with them
 
     def now(self) -> str:
         value = self.value.re.value.item()
         text: str = (int(value) if self.spec.endswith("d") else value).__format__(self.spec)
-        return reduce(lambda told, pair: told.replace(*pair), self.instead, text)
+        return reduce(lambda told, pair: told.replace(*pair), self.instead, f"{text:{self.blanks}}")
 
 
 class Either(NamedTuple):
@@ -231,7 +233,9 @@ def said(value: Any) -> Any:
 
 def _shown(value: Any, spec: str) -> Iterator[Any]:
     """Pieces of a text for a value in its format."""
-    end = ""
+    (own, whole), blanks, end = (value, spec), "", ""
+    if isinstance(value, Quantity) and value.graph.draws and (wide := _WIDE.fullmatch(spec)):
+        spec, blanks = wide[2] + wide[4], (wide[1] or ">") + wide[3]
     if isinstance(value, Chosen):
         options, at = place(value)
         value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
@@ -242,7 +246,10 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
     elif isinstance(value, Quantity) and spec in ("", "+", ",", "+,") and is_whole(value):
         spec += "d"
     followed = _is_followed(value, spec)
-    yield Number(value, spec) if followed and isinstance(value, Quantity) else value if followed else f"{value:{spec}}"
+    if not followed:
+        yield f"{own:{whole}}"
+        return
+    yield Number(value, spec, blanks=blanks) if isinstance(value, Quantity) else value
     yield end
 
 
