@@ -14,7 +14,7 @@ from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
 _FORMAT = re.compile(r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|")  # which a reader writes too
-_WIDE = re.compile(r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)")
+_WIDE = re.compile(r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)")  # so wide, with blanks
 _SHORT = re.compile(r"(\+?,?)(\.\d{1,2})?([efg%])")
 
 
@@ -233,7 +233,7 @@ def said(value: Any) -> Any:
 
 def _shown(value: Any, spec: str) -> Iterator[Any]:
     """Pieces of a text for a value in its format."""
-    (own, whole), blanks, end = (value, spec), "", ""
+    blanks = end = ""
     if isinstance(value, Quantity) and value.graph.draws and (wide := _WIDE.fullmatch(spec)):
         spec, blanks = wide[2] + wide[4], (wide[1] or ">") + wide[3]
     if isinstance(value, Chosen):
@@ -246,10 +246,10 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
     elif isinstance(value, Quantity) and spec in ("", "+", ",", "+,") and is_whole(value):
         spec += "d"
     followed = _is_followed(value, spec)
-    if not followed:
-        yield f"{own:{whole}}"
-        return
-    yield Number(value, spec, blanks=blanks) if isinstance(value, Quantity) else value
+    if followed:
+        yield Number(value, spec, blanks=blanks) if isinstance(value, Quantity) else value
+    else:
+        yield f"{f'{value:{spec}}':{blanks}}"
     yield end
 
 

@@ -24,11 +24,11 @@ def by_turn(node: ast.For) -> list[ast.stmt] | None:
     turns = ast.Name(f"{TURNS} {node.lineno}", ast.Load())
     ask = ast.Assign([ast.Name(turns.id, ast.Store())], call("counted", node, *copy.deepcopy(node.iter).args))  # type: ignore[attr-defined]
     begun = [
-        ast.Assign([_stored(name)], value)
-        for of, each in lists.items()
-        for name, value in (
-            (_count(of), ast.Call(_loaded("len"), [_loaded(of)], [])),
-            (of, call("room", node, _loaded(of), turns, ast.Constant(each))),
+        line
+        for name, each in lists.items()
+        for line in (
+            ast.Assign([_stored(_count(name))], ast.Call(_loaded("len"), [_loaded(name)], [])),
+            ast.Assign([_stored(name)], call("room", node, _loaded(name), turns, ast.Constant(each))),
         )
     ]
     loop = ast.For(node.target, turns, body, [])

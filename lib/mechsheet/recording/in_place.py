@@ -16,6 +16,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, 
 from mechsheet.quantities.selected import Selected
 from mechsheet.recording.choices import element
 
+OTHER_NAME = "an array is changed that has another name too"
 _NOT_SET = object()  # an element that there is not
 
 
@@ -181,7 +182,7 @@ def former(values: list[Any]) -> list[Any]:
 def left(arrays: list[Any]) -> None:
     """End the changes of arrays by the turns of a loop: nobody else may know one as it was before."""
     if any(array() is not None for array in arrays):
-        raise NotRecorded("an array is changed that has another name too")
+        raise NotRecorded(OTHER_NAME)
 
 
 def settled(new: Any) -> None:

@@ -72,6 +72,12 @@ class Memory:
             return set()
         return {name for name, value in names.items() if not objects.isdisjoint(Memory([value], names).held)}
 
+    @staticmethod
+    def sharing(names: Mapping[str, Any], arrays: Iterable[str]) -> set[str]:
+        """Names of values that reach an array of one of some names: they change with it."""
+        each = (x for x in map(names.get, arrays) if isinstance(x, np.ndarray | Quantity) and x.ndim)
+        return Memory.named(names, {id(owner(x)) for x in each})
+
 
 def _is_fixed(value: Any) -> bool:
     own = type(value).__module__.startswith("mechsheet.") and not isinstance(value, Sifted)

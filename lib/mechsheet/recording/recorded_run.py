@@ -17,7 +17,7 @@ from mechsheet.quantities.arithmetic import sized
 from mechsheet.quantities.graph import Gap, Graph, Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, leaves_of
 from mechsheet.quantities.node import Node, conditions
-from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift, owner
+from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.quantities.unrepeatable import Unrepeatable
@@ -25,6 +25,7 @@ from mechsheet.quantities.written import Said, Written
 from mechsheet.recording import showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
+from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, shared_by
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held
@@ -200,13 +201,11 @@ class Run(OfPositions):
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
         before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
-        changed_in_place = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
-        arrays = {id(owner(x)) for x in changed_in_place if x.ndim}
-        others = before.named(self.names, arrays).difference(touched)
+        others = before.sharing(self.names, facts.in_place).difference(touched)
         differs: list[str] = []
         try:
             if others:
-                raise NotRecorded("an array is changed that has another name too")
+                raise NotRecorded(OTHER_NAME)
             exec(facts.code, self.names)
             if graph.untold:
                 alone = {

@@ -3,7 +3,7 @@
 import ast
 import dis
 import sys
-from collections.abc import Iterable, Iterator, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from functools import lru_cache
 from inspect import signature
 from traceback import walk_tb
@@ -39,7 +39,7 @@ class Statement(NamedTuple):
     heard: frozenset[str]  # of these what it takes for more than the units and the reasons of what it shows
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
-    in_place: frozenset[str]  # names of which it changes the value in place, where that is an array
+    in_place: frozenset[str]  # names whose values it changes in place where these are arrays
     former: frozenset[str]  # names that may be what they were before, or are made of that
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
@@ -218,18 +218,17 @@ def on_the_page(statement: ast.stmt) -> bool:
     return False
 
 
-def _changed(nodes: Iterable[ast.AST]) -> Iterator[str]:
+def _changed(nodes: Sequence[ast.AST]) -> Iterator[str]:
     """Names of what a statement may change in place: a list that something is appended to, an array's element."""
     for node in nodes:
         match node:
             case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add" | "sort")):
                 yield name
-            case ast.Subscript(ast.Name(name), ctx=ast.Store()):
-                yield name
+    yield from _in_place(nodes)
 
 
 def _in_place(nodes: Iterable[ast.AST]) -> Iterator[str]:
-    """Names of arrays that a statement changes in place."""
+    """Names whose values a statement changes in place where these are arrays."""
     for node in nodes:
         match node:
             case ast.AugAssign(ast.Name(name)) | ast.Subscript(ast.Name(name), ctx=ast.Store()):
