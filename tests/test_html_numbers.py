@@ -15,6 +15,7 @@ import test_recorded_worksheet
 import test_rows_followed
 import test_rows_with_texts
 import test_scipy_rules
+from by_cells import by_cells
 from in_browser import evaluated
 from own_worksheet import ELSEWHERE, OTHER, own, recorded
 
@@ -73,6 +74,20 @@ def test_elements_are_taken_of_a_field_that_is_whole(blank: Page, tmp_path: Path
     )
     lines += "\ny = np.interp(u * np.array([0.0, 0.1, 0.3, 0.5, 0.9, 1.0]), u, m + np.cos(u))"
     assert_computed(blank, own(tmp_path, f"{lines}\nresult = y * 1  # [-] line"), OTHER)
+
+
+@pytest.mark.parametrize(
+    "total", ["x.sum()", "np.stack([x, x / 3]).sum(axis=1)[1]", "np.stack([x, x], axis=1).sum(axis=0)[1]"]
+)
+def test_sums_are_those_of_numpy_to_the_last_bit(total: str, blank: Page, tmp_path: Path) -> None:
+    """So that a limit at which one stands is met as in the worksheet."""
+    sheet = own(tmp_path, f"x = 1 / np.arange(1.0, g.n + 1)\ny = {total}  # [-] line")
+    _, recording = recorded(sheet)
+    given = [{"n": n} for n in (2, 7, 8, 9, 37, 128, 129, 300, 1001)]
+    found = evaluated(blank, javascript.module(recording, {"y": recording.values["y"].re}), given)
+    assert [each["values"]["y"].item() for each in found] == [
+        by_cells(sheet.path, ["y"], **each)["y"] for each in given
+    ]
 
 
 LOOPS = {
