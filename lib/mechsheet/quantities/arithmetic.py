@@ -8,6 +8,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import Node, is_number
+from mechsheet.quantities.node import is_whole as _is_whole
 from mechsheet.quantities.quantity import Quantity, lift, plain
 
 
@@ -115,22 +116,7 @@ def floor_divide(x: Quantity, y: Quantity) -> Any:
 
 def is_whole(x: Quantity) -> bool:
     """Whether Python has a whole number there, where it has one at all."""
-    waiting, known, whole = [x.re], set[Node](), x.graph.whole
-    while waiting:
-        part = waiting.pop()
-        if part in known or part in whole or part.value.dtype.kind in "iu":
-            continue
-        known.add(part)
-        match part.op:
-            case "sized":
-                waiting.append(part.args[0])
-            case "where":
-                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
-            case "add" | "sub" | "mul" | "neg" | "mod" | "max" | "min" | "abs":
-                waiting += part.args
-            case _:
-                return False
-    return True
+    return _is_whole(x.re, x.graph.whole)
 
 
 def whole(x: Quantity) -> Quantity:

@@ -2,6 +2,7 @@
 
 import string
 from collections.abc import Iterator
+from copy import copy
 from functools import reduce
 from operator import mul
 from typing import Any
@@ -88,8 +89,8 @@ def is_ranked(x: Quantity) -> bool:
 
 def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
     """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
-    graph.chosen.append((x, axis, "argsort"))
-    if is_ranked(x := lift(graph, x)):
+    graph.chosen.append((copy(x := lift(graph, x)), axis, "argsort"))
+    if is_ranked(x):
         number: Any = Quantity(graph, graph.rows(graph.length(x.re, -1)))
     else:
         x, axis, count = to_sort(graph, x, axis)

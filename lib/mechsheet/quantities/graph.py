@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.quantities.lengths import Lengths
-from mechsheet.quantities.node import Block, Loop, Node, is_number, steps_of
+from mechsheet.quantities.node import Block, Loop, Node, is_number, is_whole, steps_of
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
 
 
@@ -238,12 +238,14 @@ class Graph(Lengths):
         key, stretches = ("iterated", loop, number), turns.stretches or loop.initial[number].stretches
         return self._kept(key, "iterated", (loop, number, turns), lambda: turns.value, stretches)
 
-    def rows(self, count: Node) -> Node:
+    def rows(self, count: Node, kind: type = int) -> Node:
         """The numbers 0, 1, 2 .. of so many rows."""
         stretches = count not in self.fixed
         if stretches:
             self.counts.add(count)
-        return self._kept(("rows", count), "rows", (count,), lambda: np.arange(int(count.value)), stretches)
+        return self._kept(
+            ("rows", count, kind), "rows", (count,), lambda: np.arange(int(count.value), dtype=kind), stretches
+        )
 
     def take(self, source: Node, index: Values, *moved: Moved) -> Node:
         """Elements of a quantity by their flat positions; by what has ``moved`` them, where it stretches."""
@@ -350,20 +352,25 @@ class Graph(Lengths):
     # The operations below leave out what adds nothing: a reader looks for none of it.
 
     def add(self, a: Node, b: Node) -> Node:
-        if is_number(a, 0):
-            return b
-        if is_number(b, 0):
-            return a
+        for x, y in ((a, b), (b, a)):
+            if is_number(x, 0) and self.alone(y, x):
+                return y
         if b.op == "neg":
             return self.sub(a, b.args[0])
         return self.fold("add", a, b)
 
     def sub(self, a: Node, b: Node) -> Node:
-        if is_number(b, 0):
+        if is_number(b, 0) and self.alone(a, b):
             return a
-        if is_number(a, 0):
+        if is_number(a, 0) and self.alone(b, a):
             return self.neg(b)
         return self.add(a, b.args[0]) if b.op == "neg" else self.fold("sub", a, b)
+
+    def alone(self, node: Node, number: Node) -> bool:
+        """Whether a number that changes nothing may be left out: it makes no numbers of conditions or whole ones."""
+        if node.value.dtype == bool:
+            return False
+        return number.value.dtype.kind != "f" or not is_whole(node, self.whole)
 
     def neg(self, a: Node) -> Node:
         return a.args[0] if a.op == "neg" else self.fold("neg", a)
@@ -372,16 +379,16 @@ class Graph(Lengths):
         for x, y in ((a, b), (b, a)):
             if is_number(x, 0):
                 return x
-            if is_number(x, 1):
+            if is_number(x, 1) and self.alone(y, x):
                 return y
-            if is_number(x, -1):
+            if is_number(x, -1) and self.alone(y, x):
                 return self.neg(y)
             if x.op == "neg":
                 return self.neg(self.mul(x.args[0], y))
         return self.fold("mul", a, b)
 
     def div(self, a: Node, b: Node) -> Node:
-        if is_number(b, 1) or is_number(a, 0):
+        if (is_number(b, 1) and not is_whole(a, self.whole)) or is_number(a, 0):
             return a
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("div", a, b)
 

@@ -1,6 +1,6 @@
 """One quantity of a recording: an operation on others, with its values."""
 
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -227,3 +227,25 @@ def conditions(node: Node, known: dict[Node, frozenset[Node]]) -> frozenset[Node
 def is_number(node: Node, number: float) -> bool:
     """Whether a node is this constant, without a unit."""
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
+
+
+def is_whole(node: Node, known: Set[Node]) -> bool:
+    """Whether Python has a whole number there, where it has one at all; of some it is known."""
+    waiting, met = [node], set[Node]()
+    while waiting:
+        part = waiting.pop()
+        if part in met or part in known or part.value.dtype.kind in "iu":
+            continue
+        met.add(part)
+        match part.op:
+            case "sized" | "like" | "take":
+                waiting.append(part.args[0])
+            case "join":
+                waiting += part.args[0]
+            case "where":
+                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
+            case "add" | "sub" | "mul" | "neg" | "mod" | "max" | "min" | "abs":
+                waiting += part.args
+            case _:
+                return False
+    return True

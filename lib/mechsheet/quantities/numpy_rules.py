@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities import polynomial_rules
-from mechsheet.quantities.arithmetic import absolute, angle, choice, conjugate, rounded, trunc
+from mechsheet.quantities.arithmetic import absolute, angle, choice, conjugate, is_whole, rounded, trunc
 from mechsheet.quantities.array_rules import (
     blocks,
     cross,
@@ -260,7 +260,7 @@ def _near(graph: Graph, x: Any, y: Any, *, rel_tol: float = 1e-9, abs_tol: float
 def _like(value: Any) -> Callable[..., Any]:
     def operation(graph: Graph, x: Any, *given: Any, dtype: Any = None) -> Any:
         x = lift(graph, x)
-        return lift(graph, *(given or (value,))).astype(dtype or x.dtype).like(x)
+        return lift(graph, *(given or (value,))).astype(dtype or (int if is_whole(x) else x.dtype)).like(x)
 
     return operation
 
@@ -270,7 +270,8 @@ def _first(kind: str) -> Callable[..., Any]:
         x = lift(graph, x)
         if x.dtype == bool:
             return choice(graph, x, 1.0, 0.0).reduced(kind, axis, keepdims)
-        graph.chosen.append((x.compared(kind) if isinstance(x, Selected) and x.compares else x, axis, kind))
+        every = x.compared(kind) if isinstance(x, Selected) and x.compares else copy(x)  # which is no other name of x
+        graph.chosen.append((every, axis, kind))
         return x.reduced(kind, axis, keepdims)
 
     return operation
@@ -359,10 +360,10 @@ FUNCTIONS.update(_OF_FUNCTIONS)
 FUNCTIONS[np.take] = lambda graph, x, k, axis=0: moved(moved(lift(graph, x), axis, 0)[k], 0, axis)
 
 
-def counted(graph: Graph, count: Any) -> Quantity:
+def counted(graph: Graph, count: Any, kind: type = int) -> Quantity:
     """The numbers 0, 1, 2 .. of so many rows, which a writer with a fixed number of them notes."""
     count = lift(graph, count)
-    rows = graph.rows(count.re)
+    rows = graph.rows(count.re, kind)
     graph.see(graph.same(count.re), rows=True)
     return Quantity(graph, rows)
 
@@ -381,10 +382,10 @@ def arange(graph: Graph, *ends: Any, dtype: Any = None) -> Any:
     start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
     if not has_quantity(ends) and not all(float(e).is_integer() for e in ends):
         return np.arange(*ends)
-    count = stop - start
-    if lift(graph, count).dtype.kind == "f" or not (isinstance(step, int) and step == 1):
-        count = np.maximum(np.ceil(count / step), 0)
-    return counted(graph, as_many(lift(graph, count))) * step + start
+    count, kind = stop - start, int if all(is_whole(lift(graph, end)) for end in ends) else float
+    if kind is float or not (isinstance(step, int) and step == 1):
+        count = np.maximum(np.ceil(count if step == 1 else count / step), 0)
+    return counted(graph, as_many(lift(graph, count)), kind) * step + start
 
 
 def as_many(count: Quantity) -> Quantity:
@@ -404,7 +405,7 @@ def linspace(graph: Graph, start: Any, stop: Any, count: Any = 50, endpoint: boo
     thin = graph.thin if endpoint and present // graph.thin + 1 in graph.listed else 1
     if thin > 1:
         graph.positions = present + 1
-    rows = counted(graph, pieces // thin + 1 if thin > 1 else count) * thin
+    rows = counted(graph, pieces // thin + 1 if thin > 1 else count, float) * thin
     if not (graph.draws or graph.bodies):
         return start + (stop - start) * (rows / pieces)
     places = start + rows * ((stop - start) / pieces)

@@ -250,7 +250,9 @@ class Quantity(NDArrayOperatorsMixin):
         rest = np.arange(prod(sizes)).reshape(sizes)
         inside = (start >= 0) & (start < count)
         flat: Any = np.where(inside, start, np.nan)[(..., *(None,) * len(inner))] * rest.size + rest
-        return self.whole().each(lambda node: self.graph.at(node, flat.re))
+        rows = self.whole().each(lambda node: self.graph.at(node, flat.re))
+        rows.base = None if position.ndim else self
+        return rows
 
     @property
     def T(self) -> "Quantity":
@@ -270,13 +272,15 @@ class Quantity(NDArrayOperatorsMixin):
         if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
             raise NotRecorded(f"numbers of the kind {dtype}")
         kind = dtype.kind
-        if kind in "iu" and self.dtype == bool:
+        if kind in "iufc" and self.dtype == bool:
             number: Quantity = FUNCTIONS[np.where](self.graph, self, 1, 0)
-            return number
+            return number.astype(dtype)
         if kind in "iu":
-            whole: Quantity = UFUNCS[np.trunc](self)
+            whole: Quantity = lift(self.graph, self.value.astype(int)) if is_literal(self) else UFUNCS[np.trunc](self)
+            self.graph.whole.add(whole.re)
             return whole
-        return self != 0 if kind == "b" else self.__copy__()
+        other: Quantity = self != 0 if kind == "b" else self * 1.0
+        return other
 
     def reshape(self, *shape: Any) -> "Quantity":
         return self.rearranged(np.reshape, plain(shape[0] if len(shape) == 1 else shape))

@@ -149,7 +149,7 @@ class Input:
         if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
             raise SheetError(f"{given} is no number")
         if not self.whole:
-            return value
+            return float(value) if isinstance(value, int | np.integer) else value
         # 1450 of [rpm] are turns a minute, 1450 * rpm is in SI as whatever is computed
         shown = value if isinstance(value, int | np.integer) else self.display(value)
         if not float(shown).is_integer():
@@ -171,6 +171,8 @@ class Input:
     def held(self, leaves: Mapping[str, Any]) -> Any:
         """The value made of its leaves, which may be arrays of variants or quantities of a recording."""
         value = leaves[self.name]
+        if isinstance(value, int | np.integer) and not self.whole:
+            return float(value)
         return int(value) if self.counted and isinstance(value, int | float | np.number) else value
 
 
