@@ -208,7 +208,9 @@ def element(container: Any, key: Any) -> Any:
         return lift(key.graph, container)[key]
     values = container if isinstance(container, dict) else dict(enumerate(container))
     row = None
-    if key.single and key.value >= 0 and all(isinstance(known, NUMBERS) for known in values):
+    if key.single and isinstance(container, list | tuple):  # whose last element is that of -1
+        key = where(key.graph, key < 0, key + len(container), key)
+    if key.single and all(isinstance(known, NUMBERS) for known in values):
         if not any(key.value == known for known in values):
             raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
         if all(isinstance(value, NUMBERS) for value in values.values()):

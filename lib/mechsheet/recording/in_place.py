@@ -39,7 +39,7 @@ def _put(old: Quantity, key: Any, value: Any) -> Any:
     new = lift(old.graph, value)
     if not has_quantity([key]):
         old = of_now(old)
-    new = new.astype(int) if old.dtype.kind in "iu" else new
+    new = new.astype(int) if is_whole(old) else new
     chosen = _at(old, places, new) if (places := _by_places(old, key)) else _where(old, key, new)
     return joined([old, new], _placed, plain(key)) if chosen is None else chosen
 
@@ -174,6 +174,24 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     return new
 
 
+def arranged(old: Any, method: str, *args: Any) -> Any:
+    """``old`` after ``old.sort()`` or ``old.fill(value)``."""
+    if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, *args])):
+        getattr(old, method)(*args)
+        return old
+    graph = next(quantities([old, *args])).graph
+    graph.gone.append(weakref.ref(owner(old)))
+    array = lift(graph, old)
+    return np.sort(array, *args) if method == "sort" else np.full_like(array, *args)
+
+
+def outside(value: Any) -> Any:
+    """What a function changes in place, which is no recorded array: none would be put for it."""
+    if isinstance(value, Quantity) and value.ndim:
+        raise NotRecorded("an array that numpy changes in place")
+    return value
+
+
 def former(values: list[Any]) -> list[Any]:
     """Arrays before the turns that change them, for who looks behind those whether they are known still."""
     return [weakref.ref(owner(array)) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
@@ -207,5 +225,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
-    "part": part, "former": former, "left": left,
+    "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside,
 }  # fmt: skip
+CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

@@ -27,6 +27,7 @@ from mechsheet.recording.sifted import Sifted
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
+_SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, BuiltinFunctionType, range, slice, type(None),
@@ -41,6 +42,7 @@ class Memory:
     def __init__(self, values: Iterable[Any], own: Mapping[str, Any]) -> None:
         """Functions are looked into where their global names are the ``own`` ones of the worksheet."""
         self.nodes = list[Node]()  # of quantities
+        self.arrays = set[int]()  # identities of arrays, of what shows elements of another one that
         self.held: dict[int, tuple[Any, list[Any] | None]] = {}  # what is held, and its parts, by the identity
         waiting = list(values)
         while waiting:
@@ -48,11 +50,15 @@ class Memory:
             if isinstance(value, Quantity):
                 self.nodes.extend(value.nodes)
                 self.held[id(owner(value))] = (), []  # which nobody holds by this
+                if value.ndim:
+                    self.arrays.add(id(owner(value)))
             elif not (isinstance(value, _LEAVES) or id(value) in self.held or _foreign(value, own)):
                 value = owner(value)
                 parts = _parts(value)
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = (known, parts)
+                if isinstance(value, np.ndarray):
+                    self.arrays.add(id(value))
                 waiting += parts or ()
 
     def mutable(self) -> set[int]:
@@ -73,10 +79,14 @@ class Memory:
         return {name for name, value in names.items() if not objects.isdisjoint(Memory([value], names).held)}
 
     @staticmethod
-    def sharing(names: Mapping[str, Any], arrays: Iterable[str]) -> set[str]:
-        """Names of values that reach an array of one of some names: they change with it."""
-        each = (x for x in map(names.get, arrays) if isinstance(x, np.ndarray | Quantity) and x.ndim)
-        return Memory.named(names, {id(owner(x)) for x in each})
+    def sharing(names: Mapping[str, Any], others: Iterable[Any]) -> set[str]:
+        """Names of values that reach an array which some others reach: they change with it."""
+        return Memory.named(names, Memory(others, names).arrays)
+
+
+def sets_of_others(codes: Iterable[CodeType]) -> bool:
+    """Whether functions may set elements of arrays that are not their own."""
+    return any(not _SETTING.isdisjoint(names_of(code)) for code in codes)
 
 
 def _is_fixed(value: Any) -> bool:

@@ -2,7 +2,7 @@
 
 import ast
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -26,9 +26,9 @@ from mechsheet.recording import showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
 from mechsheet.recording.in_place import OTHER_NAME
-from mechsheet.recording.memory import Memory, changes, names_of, shared_by
+from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
 from mechsheet.recording.positions import OfPositions
-from mechsheet.recording.stage import Stage, held
+from mechsheet.recording.stage import Stage, held, is_array, is_number
 from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -36,7 +36,6 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.lines import Formula, of_setup, rebound
 from mechsheet.worksheet.mistakes import as_written
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
-from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Mark, Slider
 
 _PLACES = {"argmax", "argmin", "argsort"}
@@ -94,6 +93,7 @@ class Run(OfPositions):
         self.rebound = rebound(self.sheet, cell.lines) if twice else []
         for n, (line, fact) in enumerate(zip(lines, facts, strict=True)):
             later = {name for name, end in last.items() if end > n}
+            self.to_change = frozenset[str]().union(*(fact.in_place for fact in facts[n + 1 :]))
             if not draws and fact.touched and all(isinstance(self.namespace.get(x), Drawing) for x in fact.touched):
                 continue
             if not self.apart(stage, line, later):
@@ -117,11 +117,10 @@ class Run(OfPositions):
 
     def parts(self, line: ast.stmt, before: set[str]) -> tuple[ast.stmt, ...]:
         """What of a statement is run; names that are bound ``before`` it may be read by functions that it calls."""
-        on_page = statement.on_the_page(line)
-        if on_page:
+        if statement.on_the_page(line):
             return showing.on_the_page(line, self.showing)
-        alone = statement.names_apart(line) if before.isdisjoint(statement.touched(line)) else ()
-        return alone or statement.texts_apart(line)
+        apart = before.isdisjoint(statement.touched(line))
+        return (apart and statement.names_apart(line)) or statement.texts_apart(line)
 
     def again(self) -> "Run":
         return Run(self.sheet, self.graph, self.namespace, self.want, self.lines, self.unnamed)
@@ -185,8 +184,7 @@ class Run(OfPositions):
         """
         graph = self.graph
         graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
-        graph.gone.clear()
-        graph.chosen.clear()
+        del graph.gone[:], graph.chosen[:]
         staged.set(stage.shows)
         reads = self.read(facts.loaded)
         functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
@@ -201,11 +199,14 @@ class Run(OfPositions):
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
         before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
         may_change = any(map(changes, codes))
-        others = before.sharing(self.names, facts.in_place).difference(touched)
+        arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
+        others = Memory.sharing(self.names, arrays).difference(touched)
+        handed = map(self.names.get, under) if sets_of_others(codes[1:]) else ()
+        reached = Memory.sharing(self.names, handed).difference(touched)  # which a function may change
         differs: list[str] = []
         try:
-            if others:
-                raise NotRecorded(OTHER_NAME)
+            if others or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
+                raise NotRecorded(OTHER_NAME) if others else self.lost[min(gone)]
             exec(facts.code, self.names)
             if graph.untold:
                 alone = {
@@ -225,27 +226,29 @@ class Run(OfPositions):
                 raise NotRecorded(", ".join(differs) + differ)
             if any(not _PLACES.isdisjoint(names_of(code)) for code in codes):
                 decided(graph)
-            if any(self.built(final)) and self.leaves(facts, under, codes, before):
+            if stage.built(final) and self.leaves(facts, under, codes, before):
                 raise NotRecorded("its columns are built without table or figure")
         except (Exception, NotRecorded) as error:
             rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, under, codes, before)
-            self.keep(stage, touched, final, self.why(error, reads), rests_on)
-            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set())) | others
-            self.lose(stage, beside.difference(touched), later, self.why(error, reads))
+            gives = {name: self.namespace.get(name) for name in final}
+            of_later = Memory.sharing(gives, map(self.namespace.get, self.to_change))  # which are others by then
+            self.keep(stage, touched, final - of_later, self.why(error, reads), rests_on)
+            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            beside = (beside | others | reached).difference(touched)
+            self.lose(stage, beside | of_later, later | of_later, self.why(error, reads))
             stage.finish(lambda x: x)
             return
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
-        everywhere = not touched and not beside
+        beside |= reached if graph.looked else set()
         known = {k: guard for k, guard in graph.looked.items() if not guard.lengths and (graph.draws or not guard.why)}
-        noted = known if everywhere else {}
+        noted = {} if touched or beside else known
         stage.guards |= noted
         self.recording.guards |= graph.numbered | noted
         rests, shown = rests | graph.looked, shown | graph.looked
         for name in beside:
-            self.looked[name] = tuple(
-                {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}.values()
-            )
+            seen = {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}
+            self.looked[name] = tuple(seen.values())
         for name in touched:
             made = self.names.get(name)
             if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
@@ -269,8 +272,7 @@ class Run(OfPositions):
 
     def decide(self, stage: Stage, names: Iterable[str]) -> None:
         """Let what a cell gives and shows rest on what Python saw for statements that bind nothing, and may end it."""
-        guards = stage.guards
-        if not guards:
+        if not (guards := stage.guards):
             return
         for name in names:
             self.looked[name] = tuple(({guard.holds: guard for guard in self.looked.get(name, ())} | guards).values())
@@ -279,18 +281,21 @@ class Run(OfPositions):
 
     def hold(self, name: str, guards: Iterable[Guard]) -> None:
         """Let the number of a name be none unless Python sees the same."""
-        value = self.names.get(name)
+        value: Any = self.names.get(name)
+        kept = value
         if isinstance(value, Selected):
-            self.names[name] = Selected(self.while_same(value.of, guards), value.holds)
+            kept = Selected(self.while_same(value.of, guards), value.holds)
         elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
-            self.names[name] = self.while_same(value, guards)
+            kept = self.while_same(value, guards)
+        if kept is not value:  # though the same array
+            kept.base, self.names[name] = value, kept
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
         """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
 
         The unit of what Python made a number of, out of what it reads, is not known.
         """
-        numbers = any(type(value) is float or _is_array(value) for value in map(self.names.get, touched))
+        numbers = any(type(value) is float or is_array(value) for value in map(self.names.get, touched))
         made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
             value, line = self.names.get(name), self.declared(name) or self.constants.get(name)
@@ -300,9 +305,9 @@ class Run(OfPositions):
                 continue
             unit = line.unit if line and not line.arguments else "-"
             number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
-            if any(units.parse(unit).dims) and (type(number) in (int, float) or _is_array(number)):
+            if any(units.parse(unit).dims) and (type(number) in (int, float) or is_array(number)):
                 self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
-            elif made and (type(value) is float or _is_array(value)):
+            elif made and (type(value) is float or is_array(value)):
                 self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
 
     def declared(self, name: str) -> Formula | None:
@@ -330,12 +335,12 @@ class Run(OfPositions):
         stage.forget()
         own = [self.namespace.get(name) for name in touched]
         lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
-        if lasting and not rests_on and all(map(_is_number, own)):
+        if lasting and not rests_on and all(map(is_number, own)):
             for name, number in zip(touched, own, strict=True):  # the same for all inputs
                 self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
             return
         guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
-        if not touched or any(held(self.namespace.get(name)) for name in final) or not final.issuperset(touched):
+        if not final or not final.issuperset(touched) or any(held(self.namespace.get(name)) for name in final):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
                 public, gaps = tuple(name for name in touched if not name.startswith("_")), self.recording.gaps
                 gap = Gap(public, graph.line, as_written(str(reason)))
@@ -350,12 +355,17 @@ class Run(OfPositions):
             known = []
         kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
         for name in touched:
-            self.looked[name] = () if isinstance(kept.get(name), Quantity) else guards
+            self.looked[name] = guards
+            if isinstance(value := kept.get(name), Quantity):  # which has numbers where these hold alone
+                self.chosen |= dict.fromkeys(value.parts, frozenset(guard.holds for guard in guards))
+                self.looked[name] = guards if value.ndim else ()  # another array may be longer
             if name in kept:
                 self.names[name] = kept[name]
             else:
                 self.names.pop(name, None)
                 self.lost[name] = reason
+                if self.to_change - {name}:  # which may be other names of it
+                    self.looked[name] = (*(Guard(graph.same(x), graph.line) for x in self.recording.inputs.values()),)
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
@@ -365,7 +375,7 @@ class Run(OfPositions):
             if name in self.namespace and name not in later:
                 self.names[name] = stage.kept(self.namespace[name], every)
             else:
-                self.names.pop(name)
+                self.names.pop(name, None)
                 self.lost[name] = reason
 
     def why(self, error: BaseException, reads: frozenset[str]) -> NotRecorded:
@@ -384,16 +394,6 @@ class Run(OfPositions):
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
         return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
-
-    def built(self, names: Iterable[str]) -> Iterator[str]:
-        """Names of tables and figures that no call of `table` or `figure` has made."""
-        for name in names:
-            own = self.namespace.get(name)
-            for each in own if isinstance(own, tuple | list) else [own]:
-                if isinstance(each, Table | Figure):
-                    number = each.number if isinstance(each, Table) else f"Fig {each.number}"
-                    if number not in self.recording.tables:
-                        yield name
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""
@@ -439,11 +439,3 @@ class Run(OfPositions):
             used = [name for name in self.recording.inputs if name.partition(".")[0] in parts]
             roots += [self.recording.inputs[name] for name in (self.recording.inputs if facts.whole else used)]
         return leaves_of(roots, self.recording)
-
-
-def _is_array(value: Any) -> bool:
-    return isinstance(value, np.ndarray) and value.dtype.kind in "iuf"
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, float | np.floating) or _is_array(value)

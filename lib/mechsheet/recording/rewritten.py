@@ -20,6 +20,7 @@ from mechsheet.recording import (
     in_place,
     kept,
     loops,
+    own_arrays,
     per_row,
     raised,
     rows_checked,
@@ -74,6 +75,7 @@ _KINDS = (
 
 class _Rewriting(ast.NodeTransformer):
     turns = 0  # of loops, one in another, that are rewritten as functions
+    within: ast.FunctionDef | None = None  # the function of the worksheet's that is rewritten
 
     def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
         """What an import statement binds is exchanged at once."""
@@ -108,6 +110,7 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
             node.func = ast.copy_location(ast.Name(f"recorded {node.func.id}", ast.Load()), node.func)
+        own_arrays.outside(node)
         match node:
             case ast.Call(ast.Attribute(container, "get"), [_, *_], []):
                 return call("get", node, container, *node.args)
@@ -202,6 +205,13 @@ class _Rewriting(ast.NodeTransformer):
                 return _bound_anew(node, name, "part", ast.Constant(part), node.value)
         return node
 
+    def visit_Expr(self, node: ast.Expr) -> Any:
+        """An array that is put in order in place, or filled; not where its name is of those outside of a function."""
+        match node.value:
+            case ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill" as method), args, []) if self.binds(name):
+                return _bound_anew(node, name, "arranged", ast.Constant(method), *map(self.visit, args))
+        return self.generic_visit(node)
+
     def visit_AugAssign(self, node: ast.AugAssign) -> Any:
         self.generic_visit(node)
         match node.target:
@@ -292,6 +302,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
+        own = own_arrays.of_its_own(node)
         if not any(is_of_the_whole(part) for part in ast.walk(node)):
             node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):
@@ -307,8 +318,19 @@ class _Rewriting(ast.NodeTransformer):
                         defined, chosen = _both_ways(line, ways[0], ways[1], names)
                         node.body = [*node.body[:n], *defined, ast.copy_location(ast.Return(chosen), line)]
                     break
+        outside, self.within = self.within, self.within or node
         self.generic_visit(node)
+        self.within = outside
+        if not outside:
+            own_arrays.told(node, own, CALLS.keys())
         return node
+
+    def binds(self, name: str) -> bool:
+        """Whether a name is bound where the present line stands, in a function or in the cell."""
+        if self.within is None:
+            return True
+        given = {node.arg for node in ast.walk(self.within.args) if isinstance(node, ast.arg)}
+        return name in given.union(*map(bound, self.within.body))
 
     def visit_Raise(self, node: ast.Raise) -> ast.AST:
         self.generic_visit(node)
@@ -337,8 +359,8 @@ def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
         match part.func:
-            case ast.Attribute(attr="get" | "index" | "join" | "format"):
-                return True
+            case ast.Attribute(attr=name):
+                return name in ("get", "index", "join", "format") or own_arrays.is_outside(part)
             case ast.Name(name):
                 return name in _NAMES or name in OF_KEPT or name in ("Check", "str")
         return False

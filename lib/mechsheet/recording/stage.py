@@ -1,6 +1,6 @@
 """One cell of a worksheet while it is recorded: what `table`, `find`, `check` and their like do there."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import fields, is_dataclass, replace
 from functools import partial
@@ -314,6 +314,15 @@ class Stage:
         self.solved_now = [*self.solved]
         self.finish(f)
 
+    def built(self, names: Iterable[str]) -> bool:
+        """Whether one of some names is a table or a figure that no call of `table` or `figure` has made."""
+        own = (self.namespace.get(name) for name in names)
+        each = (x for group in own for x in (group if isinstance(group, tuple | list) else [group]))
+        numbers = (
+            x.number if isinstance(x, Table) else f"Fig {x.number}" for x in each if isinstance(x, Table | Figure)
+        )
+        return any(number not in self.recording.tables for number in numbers)
+
     def same(self, value: Any, own: Any) -> bool:
         """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
         numbers = int | float | complex | np.ndarray | np.generic
@@ -414,3 +423,13 @@ def _differences(f: Callable[..., Any], at: Quantity, step: Any) -> tuple[Any, A
     if np.shape(first) != at.shape:
         raise NotRecorded("a function of one number")
     return (8 * first - second) / (12 * step), (8 * second - fourth) / (24 * step)
+
+
+def is_array(own: Any) -> bool:
+    """Whether a value of a worksheet is an array of real numbers."""
+    return isinstance(own, np.ndarray) and own.dtype.kind in "iuf"
+
+
+def is_number(own: Any) -> bool:
+    """The same, or one such number."""
+    return isinstance(own, float | np.floating) or is_array(own)

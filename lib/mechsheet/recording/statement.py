@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
+from mechsheet.recording.own_arrays import ARRANGING, FILLING
 from mechsheet.recording.rewritten import compiled
 from mechsheet.recording.ways import former, turned
 from mechsheet.worksheet import source
@@ -25,6 +26,7 @@ _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 _ARGUMENTS = {
     f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
 }
+_CHANGING = {"append", "extend", "insert", "update", "add", *ARRANGING}  # methods
 _SCOPES = ast.Lambda, ast.FunctionDef, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
 _BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
@@ -222,7 +224,7 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[str]:
     """Names of what a statement may change in place: a list that something is appended to, an array's element."""
     for node in nodes:
         match node:
-            case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add" | "sort")):
+            case ast.Call(ast.Attribute(ast.Name(name), method)) if method in _CHANGING:
                 yield name
     yield from _in_place(nodes)
 
@@ -232,6 +234,12 @@ def _in_place(nodes: Iterable[ast.AST]) -> Iterator[str]:
     for node in nodes:
         match node:
             case ast.AugAssign(ast.Name(name)) | ast.Subscript(ast.Name(name), ctx=ast.Store()):
+                yield name
+            case ast.Call(ast.Attribute(ast.Name(name), method)) if method in ARRANGING:
+                yield name
+            case ast.Call(ast.Attribute(_, function), [ast.Name(name), *_]) if function in FILLING:
+                yield name
+            case ast.keyword("out", ast.Name(name)):
                 yield name
 
 

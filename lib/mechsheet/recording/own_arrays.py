@@ -1,0 +1,64 @@
+"""Arrays that are changed in place in ways of numpy's own, and those of a function that nobody else knows."""
+
+import ast
+from collections.abc import Set
+
+from mechsheet.recording.forms import call
+
+ARRANGING = {"sort", "fill", "partition", "put", "resize"}  # methods of arrays
+FILLING = {"fill_diagonal", "copyto", "put", "place", "putmask"}  # functions of numpy, of their first argument
+_NEW = {
+    "zeros", "ones", "empty", "full", "eye", "arange", "linspace", "array", "copy", "zeros_like", "ones_like",
+    "empty_like", "full_like", "float", "int", "len", "sum", "abs", "sqrt", "sorted", "list",
+}  # fmt: skip
+
+
+def of_its_own(function: ast.FunctionDef) -> set[str]:
+    """Names of a function to which it gives nothing but new values, which nobody else knows."""
+    nodes = [*ast.walk(function)]
+    pairs = [(target, node.value) for node in nodes if isinstance(node, ast.Assign) for target in node.targets]
+    pairs += [
+        pair
+        for target, value in pairs
+        if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts)
+        for pair in zip(target.elts, value.elts, strict=True)
+    ]
+    new = {id(target): target.id for target, value in pairs if isinstance(target, ast.Name) and _is_new(value)}
+    kept = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}
+    names = (node for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store))
+    others = {node.id for node in names if id(node) not in new.keys() | kept}
+    others.update(node.arg for node in nodes if isinstance(node, ast.arg))
+    return {*new.values()}.difference(others, *(n.names for n in nodes if isinstance(n, ast.Global | ast.Nonlocal)))
+
+
+def _is_new(value: ast.expr) -> bool:
+    match value:
+        case ast.Call(ast.Name(name) | ast.Attribute(_, name)):
+            return name in _NEW
+    return isinstance(value, ast.Constant | ast.BinOp | ast.UnaryOp | ast.Compare | ast.List | ast.ListComp)
+
+
+def told(function: ast.FunctionDef, own: Set[str], changes: Set[str]) -> None:
+    """Tell changes of arrays that nobody else knows from others."""
+    for node in ast.walk(function):
+        match node:
+            case ast.Call(ast.Name(f), [ast.Name(name), *_]) if name in own and f"own {f[9:]}" in changes:
+                node.func = ast.Name(f"recorded own {f[9:]}", ast.Load())
+
+
+def outside(node: ast.Call) -> None:
+    """Let a call by which numpy changes an array in place look at which one it is."""
+    match node:
+        case ast.Call(ast.Attribute(values, method) as function) if method in ARRANGING:
+            function.value = call("outside", node, values)
+        case ast.Call(ast.Attribute(_, function), [array, *others]) if function in FILLING:
+            node.args = [call("outside", node, array), *others]
+    for keyword in node.keywords:
+        if keyword.arg == "out" and isinstance(node.func, ast.Attribute):
+            keyword.value = call("outside", node, keyword.value)
+
+
+def is_outside(node: ast.Call) -> bool:
+    """Whether there may be such an array."""
+    name = node.func.attr if isinstance(node.func, ast.Attribute) else ""
+    return name in ARRANGING or name in FILLING or any(keyword.arg == "out" for keyword in node.keywords)
