@@ -201,7 +201,7 @@ def test_all_ways_to_the_lifting_rod_put_the_axis_at_its_height():
         *("find", "find_root", "find_root, no checks", "brentq", "brentq, no checks", "inverse mechanism"),
     ]
     for name, way in ways.items():
-        reached = [printed.hitch_pins(HITCH, HITCH.S_min, L4, HITCH.L7_0)["P56_S"].imag for L4 in way(heights)]
+        reached = [printed.hitch_pins(HITCH, HITCH.S_min, L4, HITCH.L7_pre)["P56_S"].imag for L4 in way(heights)]
         assert reached == pytest.approx(heights, abs=1e-12), name
 
 

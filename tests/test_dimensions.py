@@ -396,7 +396,7 @@ def test_the_documents_are_right_but_for_their_errata(document: str) -> None:
 
 PLANTED = [
     ("hitch", "greatest load, as printed (erratum)", "greatest load", "GS6_max", "subtracts N from N·m"),
-    ("hitch", "F_gc / (g.k_gc * A_gc * g.eta)", "F_gc / (g.k_gc * g.eta)", "P_gc", "the value is in N"),
+    ("hitch", "F_gc / (g.k_gc * S_gc * g.eta)", "F_gc / (g.k_gc * g.eta)", "P_gc", "the value is in N"),
     ("hitch", "dRb = Rb / (g.P6 + g.P_msha", "dRb = Rb / (g.P6 + g.L", "dRb", "g.P6 + g.L: adds N and m"),
     ("hitch", "dphi4 = dphi3 * U43  # [rad/m]", "dphi4 = dphi3 * U43  # [rad]", "dphi4", "unit [rad] does not fit"),
     ("hitch", "cross(O1 - P23_S, R01)  # [N*m]", "R01.real  # [N*m]", "M2", "the value is in N"),

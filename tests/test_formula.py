@@ -43,7 +43,7 @@ IMPORT = "from mechsheet import typeset\n"
     ("source", "tex"),
     [
         ("pi*g.D_gc**2/4", r"\frac{\pi\,D_{\mathrm{gc}}^{2}}{4}"),
-        ("g.P6/(g.k_gc*A_gc*g.eta)", r"\frac{P_{6}}{k_{\mathrm{gc}}\,A_{\mathrm{gc}}\,\eta}"),
+        ("g.P6/(g.k_gc*S_gc*g.eta)", r"\frac{P_{6}}{k_{\mathrm{gc}}\,S_{\mathrm{gc}}\,\eta}"),
         ("O3 + g.L34*exp(1j*phi34(S))", r"O_{3} + L_{34}\,e^{i\,\varphi_{34}(S)}"),
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
         ('h["GS6_lim"]', r"{h}_{G_{\mathrm{S6,lim}}}"),

@@ -77,6 +77,14 @@ def test_printed_cylinder_angle_misses_the_pin(sheet):
     assert np.max(np.abs(sheet["P23c_S"] - sheet["P23_S"])) < 1e-15
 
 
+def test_the_documents_own_formulas_give_its_angles_and_its_pole(sheet):
+    """The law of cosines, half of the circle each, and the pole by the letters AA to FF."""
+    for k in range(3, 8):
+        assert np.allclose(sheet[f"phi{k}_d"], sheet[f"phi{k}_S"], rtol=0, atol=1e-14), k
+    for name, own in {"dphi3_d": "dphi3", "X_pd": "X_p", "Imp_d": "Imp", "Isp_d": "Isp"}.items():
+        assert np.allclose(sheet[name], sheet[own], rtol=1e-13, atol=0), name
+
+
 def test_right_load_keeps_a_fifth_on_the_front_axle_and_the_printed_one_does_not(sheet):
     g, x = sheet["g"], sheet["PS6_S"].real
 
@@ -219,7 +227,7 @@ MIRRORED |= {"side_23": "left", "side_45": "right", "side_67": "left", "side_6":
 
 # turned by the mirror, or measured along the abscissa; what a formula of one quadrant gives is left out
 TURNED = ("phi", "psi", "delta", "dphi", "M", "D_", "s_", "X_p", "P23s_S", "R56_x", "R05_x", "R34_x", "R03_x", "R01_x")
-TURNED += ("b1", "b2", "b3", "d1", "d2", "d3", "e1", "e2", "e3")
+TURNED += ("b1", "b2", "b3", "d1", "d2", "d3", "e1", "e2", "e3", "AA", "BB", "DD", "EE")
 
 
 def test_a_machine_seen_from_its_other_side_has_the_mirrored_results():

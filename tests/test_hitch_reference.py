@@ -74,17 +74,31 @@ def reference(g):
     link_5, link_7 = P56 - hinge[5], P67 - hinge[7]
     D_p = moment(link_5, link_7)
     pole = hinge[5] + link_5 * moment(hinge[7] - hinge[5], link_7) / D_p  # where the links 5 and 7 meet
-    known |= {"S1_S": abs(P34 - hinge[5]), "L53_S": abs(P56 - hinge[7]), "X_p": pole.real}
-    sides = abs(hinge[5] - hinge[7]), abs(P56 - hinge[7]), g.L56  # the law of cosines, as the document has it
-    known["phi53_S"] = np.arccos((sides[0] ** 2 + sides[1] ** 2 - sides[2] ** 2) / (2 * sides[0] * sides[1]))
-    return known | {"D_p": D_p, "N_p / D_p": (pole - hinge[5]).real, "k_p * D_p": turn[6]}
+    known |= {"S1": abs(P34 - hinge[5]), "L53": abs(P56 - hinge[7]), "X_p": pole.real}
+    known |= {"D_p": D_p, "N_p / D_p": (pole - hinge[5]).real, "k_p * D_p": turn[6]}
+    return known | by_the_document(hinge, P34, P45, P56, P67, known)
+
+
+def by_the_document(hinge, P34, P45, P56, P67, known):
+    """What its own formulas give: turns of vectors from the lines O3 O5 and O7 O5, distances from pin to pin."""
+    base = hinge[3] - hinge[5]
+    found = {"phi341": np.angle((hinge[3] - P34) / base), "phiS1": np.angle(base / (P34 - hinge[5]))}
+    found |= {"phi41": np.angle((P34 - P45) / base), "phi51": np.angle((hinge[5] - P45) / base)}
+    base = hinge[5] - hinge[7]
+    found |= {"phi53": np.angle((P56 - hinge[7]) / base)}
+    found |= {"phi61": np.angle((P67 - P56) / base), "phi71": np.angle((P67 - hinge[7]) / base)}
+    found |= {f"phi{k}_d": known[f"phi{k}_S"] for k in range(3, 8)}
+    found |= {"dphi3_d": known["dphi3"], "X_pd": known["X_p"], "Imp_d": known["I56"], "Isp_d": known["IS6"]}
+    found |= {"AA": moment(hinge[5] - P56, P56), "EE": moment(hinge[7] - P67, P67)}
+    found |= {"BB": (hinge[7] - P67).real, "CC": (hinge[7] - P67).imag}
+    return found | {"DD": (hinge[5] - P56).real, "FF": (hinge[5] - P56).imag}
 
 
 def frame(g, hinge, S, found, Z, pins):
     known = {f"L{a}{b}": abs(hinge[a] - hinge[b]) for a, b in ((1, 3), (3, 5), (5, 7))}
     known["phi13"] = -np.angle(hinge[1] - hinge[3])  # the document counts slopes from x to the left and upwards
     known |= {f"delta{n}": -np.angle(hinge[5] - hinge[k]) for n, k in ((1, 3), (2, 7))}
-    known |= {"L4_guess": 0.8 * g.L4_0, "L7_guess": 0.8 * g.L7_0, "LS6": abs(Z)}
+    known |= {"L4_0": 0.8 * g.L4_pre, "L7_0": 0.8 * g.L7_pre, "LS6": abs(Z)}
     known |= {"phiS6": np.angle(Z) - g.phi_P6, "r_s": abs(Z - pins(found["S_p"])[4])}
     corner = np.arccos((S**2 + abs(hinge[1] - hinge[3]) ** 2 - g.L3**2) / (2 * S * abs(hinge[1] - hinge[3])))
     known |= {"phi12_printed": known["phi13"] - corner, "P23s_S": hinge[1] + S * np.exp(1j * (known["phi13"] - corner))}
@@ -96,7 +110,7 @@ def capacity(g, I56, IS6):
     """The cylinders at their greatest pressure against a weight that rises by so much for a metre of them."""
     area = np.pi * (g.D_gc / 2) ** 2
     most = g.k_gc * area * g.P_gc_max * g.eta
-    known = {"A_gc": area, "F_gc": g.P6 * IS6, "P_gc": g.P6 * IS6 / (g.k_gc * area) / g.eta}
+    known = {"S_gc": area, "F_gc": g.P6 * IS6, "P_gc": g.P6 * IS6 / (g.k_gc * area) / g.eta}
     return known | {"G56": most / I56, "GS6": most / IS6, "dGS65": most / IS6 / g.P6 - 1}
 
 
@@ -150,7 +164,7 @@ def stability(g, PS6):
 
 CHANGES = [
     {},
-    {"N_pol": 7, "P6": 1.9e4, "X6": 0.7, "Y6": -0.2, "k_gc": 3, "phi_P6": 1.4, "L4_0": 0.55, "a": 0.9, "b": 1.3},
+    {"N_pol": 7, "P6": 1.9e4, "X6": 0.7, "Y6": -0.2, "k_gc": 3, "phi_P6": 1.4, "L4_pre": 0.55, "a": 0.9, "b": 1.3},
 ]
 
 

@@ -77,7 +77,7 @@ def test_space_tells_the_document_s_own_numbers(hitch: Page) -> None:
     assert table.get_attribute("aria-description") == "space: the document's own number where one differs"
     told = [pressed(wide, "Space"), pressed(wide, "Space"), pressed(wide, "Shift+Space")]
     assert told == [f"the document's own: {text}" for text in (differ[0], differ[1], differ[0])]
-    hitch.locator("#line-A_gc .ms-formula").focus()
+    hitch.locator("#line-S_gc .ms-formula").focus()
     hitch.keyboard.press("Space")  # the same as in the document
     expect(tip).to_be_hidden()
 
@@ -252,7 +252,7 @@ def test_a_browser_of_two_years_ago_shows_the_page(hitch: Page, browser: Browser
     slider.press("ArrowRight")
     page.locator("#line-P23 msub").first.hover()
     page.evaluate(SETTLED)
-    expect(page.locator("#line-A_gc .ms-numbers math")).to_be_visible()
+    expect(page.locator("#line-S_gc .ms-numbers math")).to_be_visible()
     assert errors == []
     context.close()
 

@@ -408,14 +408,14 @@ def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Pa
     expect(tip).to_contain_text("in 2 Geometry")
     expect(tip).to_contain_text("all depend on it")
     assert page.locator(".ms-uses").count() > 0
-    page.locator("#line-A_gc msubsup > :first-child").hover()  # with an exponent over its index
+    page.locator("#line-S_gc msubsup > :first-child").hover()  # with an exponent over its index
     expect(tip).to_contain_text("piston diameter")
 
 
 def test_a_number_that_differs_tells_the_document_s_own(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     places = [
-        "#line-A_gc .ms-value",
+        "#line-S_gc .ms-value",
         "#line-F_gc .ms-value",
         "#table-4\\.1 ~ .ms-wide tbody tr:nth-child(3) td:nth-child(2)",
     ]

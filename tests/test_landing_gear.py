@@ -241,6 +241,27 @@ def test_printed_28_is_right_on_one_half_of_the_circle_only(sheet):
     assert np.allclose(sheet["phi3_printed"][~right], np.pi - sheet["phi3i"][~right], rtol=0, atol=1e-7)
 
 
+def test_the_promin_listing_lacks_a_length_and_two_signs(sheet):
+    """Where its arccosine is right, (21), (24) and (25) give the right numbers once these are put in."""
+    right, l3, l2 = sheet["phi3i"] >= 0, sheet["g"].l3, sheet["l2i"]
+    s, c = np.sin(sheet["phi32i"]), np.cos(sheet["phi32i"])
+    omega3, omega2, eps3 = (sheet[f"{name}_promin"][right] for name in ("omega3", "omega2", "eps3"))
+    assert right.sum() > 3 and np.allclose(omega3, sheet["omega3_l2i"][right], rtol=1e-11)
+    assert np.allclose(omega2, -sheet["omega2_l2i"][right], rtol=1e-11)
+    mended = eps3 - (2 * l3 * omega3**2 * c[right] + (l2[right] - 1) * omega2**2) / (l3 * s[right])
+    assert np.allclose(mended, sheet["eps3_l2i"][right], rtol=1e-11)
+    mended = sheet["eps2_promin"][right] + (l3 * (eps3 - mended) * c[right] + 4 * omega2) / l2[right]
+    assert np.allclose(mended, sheet["eps2_l2i"][right], rtol=1e-10)
+
+
+def test_the_fortran_listing_has_the_minus_of_24(sheet):
+    """Its own velocities aside, (24) is right: with the angle between the links of its own it gives (23)."""
+    l3, l2, own = sheet["g"].l3, sheet["l2i"], sheet["phi3_listing"] - sheet["phi2_listing"]
+    omega3, omega2, eps3 = (sheet[f"{name}_listing"] for name in ("omega3", "omega2", "eps3"))
+    left = -l3 * omega3**2 * np.cos(own) - l3 * eps3 * np.sin(own) - l2 * omega2**2
+    assert np.max(np.abs(left)) < 1e-12 * np.max(l3 * omega3**2)
+
+
 def test_printed_14_lacks_a_factor_of_speed(sheet):
     """With the time halved an angular acceleration is four times as large; the printed one only doubles."""
     fast = run(replace(sheet["g"], t_r=sheet["g"].t_r / 2))

@@ -72,12 +72,23 @@ def reference(g):
     between = np.exp(1j * listed) / (O1 - turned) * l2i
     known |= {"phi32_listing": np.angle(between), "omega3_listing": between.imag / g.l3}
     known |= {"omega2_listing": -between.imag * between.real / l2i}
+    sine, cosine = between.imag, between.real
+    known["eps3_listing"] = -(known["omega2_listing"] ** 2 * l2i / g.l3 + known["omega3_listing"] ** 2 * cosine) / sine
+    known |= promin(g, l2i, np.exp(1j * known["phi3_arccos"]) * l2i / (O1 - i["A"]))
     known["psi_listing"] = np.angle(mounted) + 3.14 - np.pi  # from the crank to the leg
     known |= synthesis(g, O1, crank, pressure, mounted) | {"gamma_0": gammas[0], "gamma_n": gammas[1], "mu": mu}
     known |= {"alpha_0": alpha_0, "alpha_n": alpha_n, "beta0": -upward, "l12": l12, "phi3k": np.angle(crank(mu))}
     l2k = abs(crank(mu) - O1)
     known |= {"l2k": l2k, "p_k": (l2k - l20) / H, "l2_t": l20 + SLIDERS["part"].value * H}
     return known | times(g, H, l2i, rates)
+
+
+def promin(g, l2, way):
+    """The other program, from the crank's direction in the axes of the cylinder; its omega2 has the other sign."""
+    cot, rate = way.real / way.imag, 1 / g.l3 / way.imag
+    eps3 = cot * rate**2 - (cot / l2) ** 2 * rate
+    known = {"phi32_promin": np.angle(way), "omega3_promin": rate, "omega2_promin": cot / l2, "eps3_promin": eps3}
+    return known | {"eps2_promin": (rate - g.l3 * eps3 * way.real - 2 * cot / l2) / l2}
 
 
 def synthesis(g, O1, crank, pressure, mounted):

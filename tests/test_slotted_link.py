@@ -69,12 +69,15 @@ def test_printed_table_by_the_closed_form(sheet):
 
 
 def test_printed_table_by_one_find_from_the_printed_approximations(sheet):
-    phi3, AB, omega, _, epsilon, _ = sheet["F"]
-    for i, row in enumerate(PRINTED):
-        assert agrees(np.degrees(phi3[i]), row["phi3_deg"])
-        assert agrees(AB[i], row["AB"])
-        assert agrees(omega[i], row["omega_BC"])
-        assert agrees(epsilon[i], row["eps_BC"])
+    found = {c.symbol: c.values for c in sheet["table_3"].columns}
+    printed = dict(zip(("phi1k", "phi3F", "SABF", "omega3F", "eps3F", "VCF", "WCF"), PRINTED[0], strict=True))
+    wrong = [
+        (heading, i, row[heading], found[symbol][i])
+        for i, row in enumerate(PRINTED)
+        for symbol, heading in printed.items()
+        if not agrees(found[symbol][i], row[heading])
+    ]
+    assert wrong == []
 
 
 def test_only_a_clockwise_crank_gives_the_printed_signs(sheet):

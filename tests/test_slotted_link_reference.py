@@ -67,6 +67,8 @@ def found(k):
     names = {f"exp(1j * phi3_F) * {side}": np.exp(1j * k["phi3_k"]), f"SAB_F * {side}": k["SAB_k"]}
     names |= {"omega3_F": k["omega_BC_k"], f"VAB_F * {side}": k["VAB_k"]}
     names |= {"eps3_F": k["eps_BC_k"], f"WAB_F * {side}": k["WAB_k"]}
+    names |= {"VC_F": abs(k["VC_k"]), f"(VCx_F + 1j * VCy_F) * {side}": k["VC_k"]}
+    names |= {"WC_F": abs(k["WC_k"]), f"(WCx_F + 1j * WCy_F) * {side}": k["WC_k"]}
     return names | {
         "phi3_g": np.linspace(-np.pi, np.pi, 13),
         "N_F - F_found.evaluations": 0,

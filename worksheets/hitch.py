@@ -50,8 +50,11 @@ def verdict(
 
 @app.cell(hide_code=True)
 def section_1():
-    mo.md("""
+    mo.md(r"""
     ## 1 Input data
+
+    The document prints metres for $\varphi_\mathrm{BD}$ and $k_\mathrm{gc}$, an angle and a number. It writes $L_4$ and
+    $L_7$ for the preliminary lengths too, and its captions of $a$ and $b$ are other ones (section 6).
     """)
     return
 
@@ -76,8 +79,8 @@ class Hitch:
     L34: float = 0.325  # [m] lift arm, to the lifting rod; > 0
     L56: float = 1.035  # [m] lower link, whole; > 0
     phi_BD: float = 22 * deg  # [deg] angle between the two sides of the lift arm
-    L7_0: float = 0.7  # [m] preliminary length of the upper link; > 0
-    L4_0: float = 0.6  # [m] preliminary length of the lifting rod; > 0
+    L7_pre: float = 0.7  # [m] preliminary length of the upper link; > 0
+    L4_pre: float = 0.6  # [m] preliminary length of the lifting rod; > 0
     Y56_min: float = 0.2  # [m] height of the suspension axis P56 at the least stroke
 
     # 1.3 Generalised coordinate
@@ -148,6 +151,9 @@ def section_2():
     to the second. The inputs choose it, and the side of the tractor on which the implement is: a machine seen from its
     other side has the other one everywhere, its abscissas and $\varphi_\mathrm{BD}$ with the other sign and
     $\varphi_\mathrm{P6}$ from 180°.
+
+    The document takes its angles from the law of cosines, by functions that know half of the circle. Its formulas stand
+    below each group with the index d; they hold for the sides of the groups that 1.7 gives, but for whole turns.
     """)
     return
 
@@ -193,6 +199,14 @@ def group_1(O1, O3, g, s_23):
     return L13, P23, P34, phi12, phi13, phi3, phi34
 
 
+@app.cell
+def printed_21(L13, S, g, phi13):
+    phi3_d = acos((g.L3**2 + L13**2 - S**2) / (2 * g.L3 * L13)) - phi13  # [deg] lift arm by the document's formula
+    phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
+    typeset()
+    return (phi12_printed,)
+
+
 @app.cell(hide_code=True)
 def section_22():
     mo.md(r"""
@@ -213,18 +227,18 @@ def group_2(O3, O5, P34, g, s_45):
     phi5 = lambda S, L4, branch=s_45: angle(P45(S, L4, branch) - O5)  # [deg] lower link
     P56 = lambda S, L4, branch=s_45: O5 + g.L56 * exp(1j * phi5(S, L4, branch))  # [m] suspension axis
     typeset()
-    return P45, P56, phi4, phi5
+    return L35, P45, P56, delta1, phi4, phi5
 
 
 @app.cell
 def find_L4(O1, O3, O5, P34, P56, g, s_45, s_6):
     require(P34(g.S_min), g.S_min, rrr_reach(O1, O3, g.L3), "cylinder S", "m")
-    L4_guess = (g.L4_0 * 0.1 + g.L4_0 * 1.5) * 0.5  # [m] start of the document's Find
+    L4_0 = (g.L4_pre * 0.1 + g.L4_pre * 1.5) * 0.5  # [m] start of the document's Find
     L4_found = find(
         lambda L4, branch: P56(g.S_min, L4, branch).imag,
         *rrr_reach(P34(g.S_min), O5, g.L5),
         equals=g.Y56_min,
-        guess=L4_guess,
+        guess=L4_0,
         branches=(+1, -1),
         branch=s_45,
         unknown="lifting rod L4",
@@ -242,6 +256,19 @@ def find_L4(O1, O3, O5, P34, P56, g, s_45, s_6):
     checks_L4 = closed_form(L4_found, L4_c)
     typeset(L4_found, checks_L4)
     return L4, checks_L4, s_34
+
+
+@app.cell
+def printed_22(L35, L4, S, delta1, g, phi34):
+    phi341 = phi34(S) + delta1  # [deg] lift arm from the line O3 O5
+    S1 = sqrt(L35**2 + g.L34**2 - 2 * L35 * g.L34 * cos(phi341))  # [m] distance O5 P34
+    phiS1 = acos((L35**2 + S1**2 - g.L34**2) / (2 * L35 * S1))  # [deg] at O5, from O3 to P34
+    phi41 = acos((L4**2 + S1**2 - g.L5**2) / (2 * L4 * S1)) - phiS1  # [deg] lifting rod from the line O3 O5
+    phi51 = pi - acos((g.L5**2 + S1**2 - L4**2) / (2 * g.L5 * S1)) - phiS1  # [deg] lower link from that line
+    phi4_d = phi41 - delta1  # [deg] lifting rod by the document's formula
+    phi5_d = phi51 - delta1  # [deg] lower link by the document's formula
+    typeset()
+    return (S1,)
 
 
 @app.cell(hide_code=True)
@@ -292,18 +319,18 @@ def group_3(L4, O5, O7, P56, g, s_67):
     phi6 = lambda S, L7: phi6P(P56(S, L4), L7)  # [deg] mast
     phi7 = lambda S, L7: angle(P67(S, L7) - O7)  # [deg] upper link
     typeset()
-    return P67, phi6, phi6P, phi7
+    return L57, P67, delta2, phi6, phi6P, phi7
 
 
 @app.cell
 def find_L7(L4, O7, P56, S_p, g, phi6P, s_67):
     P56_p = P56(S_p, L4)  # [m] suspension axis at work
-    L7_guess = (g.L7_0 * 0.1 + g.L7_0 * 1.5) * 0.5  # [m] start of the document's Find
+    L7_0 = (g.L7_pre * 0.1 + g.L7_pre * 1.5) * 0.5  # [m] start of the document's Find
     L7_found = find(
         lambda L7, branch: phi6P(P56_p, L7, branch),
         *rrr_reach(P56_p, O7, g.L6),
         equals=g.phi_P6,
-        guess=L7_guess,
+        guess=L7_0,
         branches=(+1, -1),
         branch=s_67,
         unknown="upper link L7",
@@ -318,6 +345,18 @@ def find_L7(L4, O7, P56, S_p, g, phi6P, s_67):
     return L7, checks_L7
 
 
+@app.cell
+def printed_23(L4, L57, L7, O7, P56, S, delta2, g):
+    L53 = abs(P56(S, L4) - O7)  # [m] distance O7 P56
+    phi53 = acos((L53**2 + L57**2 - g.L56**2) / (2 * L53 * L57))  # [deg] at O7, from O5 to P56
+    phi61 = pi - acos((g.L6**2 + L53**2 - L7**2) / (2 * g.L6 * L53)) + phi53  # [deg] mast from the line O7 O5
+    phi71 = acos((L7**2 + L53**2 - g.L6**2) / (2 * L7 * L53)) + phi53  # [deg] upper link from that line
+    phi6_d = phi61 - delta2  # [deg] mast by the document's formula
+    phi7_d = phi71 - delta2  # [deg] upper link by the document's formula
+    typeset()
+    return (L53,)
+
+
 @app.cell(hide_code=True)
 def section_24():
     mo.md("""
@@ -330,7 +369,7 @@ def section_24():
 
 
 @app.cell
-def fields(L4, L7, O5, O7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
+def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
     P23_S = P23(S)  # [m] pin of the cylinder on the lift arm
     P34_S = P34(S)  # [m] pin of the lifting rod on the lift arm
     P45_S = P45(S, L4)  # [m] pin of the lifting rod on the lower link
@@ -343,11 +382,8 @@ def fields(L4, L7, O5, O7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4,
     phi5_S = phi5(S, L4)  # [deg] lower link
     phi6_S = phi6(S, L7)  # [deg] mast
     phi7_S = phi7(S, L7)  # [deg] upper link
-    S1_S = abs(P34_S - O5)  # [m] distance O5 P34
-    L53_S = abs(P56_S - O7)  # [m] distance O7 P56
-    phi53_S = abs(angle((P56_S - O7) / (O5 - O7)))  # [deg] at O7, from O5 to P56
     typeset()
-    return L53_S, P23_S, P34_S, P45_S, P56_S, P67_S, S1_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
+    return P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
 
 
 @app.cell(hide_code=True)
@@ -446,8 +482,9 @@ def section_26():
 
 
 @app.cell
-def loops(L13, L4, L53_S, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1_S, g, phi12_S, phi13, phi4_S, phi6_S):
-    phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
+def loops(
+    L13, L4, L53, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1, g, phi12_S, phi12_printed, phi4_S, phi6_S
+):
     P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
     P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
     P34s_S = P45_S - L4 * exp(1j * phi4_S)  # [m] pin of the lifting rod on the lift arm, from P45
@@ -460,8 +497,8 @@ def loops(L13, L4, L53_S, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1_S
     )
     checks_closing = (
         assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
-        assembled("group (4, 5) closes", P45_S, S1_S, (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
-        assembled("group (6, 7) closes", P67_S, L53_S, (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
+        assembled("group (4, 5) closes", P45_S, S1, (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
+        assembled("group (6, 7) closes", P67_S, L53, (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
     )
     typeset(*checks_closing, *checks_loops)
     return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops
@@ -489,24 +526,28 @@ def tables_2(
 
 @app.cell(hide_code=True)
 def section_3():
-    mo.md("""
+    mo.md(r"""
     ## 3 Kinematics
 
     ### 3.1 Transmission ratios and velocity analogues
 
     The loop of each group, differentiated and projected across one of its links, gives the ratio of two angular
-    velocities. Analogues are derivatives with respect to $S$.
+    velocities. Analogues are derivatives with respect to $S$; the document calls those of the links 4 to 7
+    $\varphi_{41}$ to $\varphi_{71}$, as it calls the angles in 2.2 and 2.3.
     """)
     return
 
 
 @app.cell
-def transmission(L4, L7, LS6, g, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S, phiS6):
+def transmission(L13, L4, L7, LS6, S, g, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S, phiS6):
     U43 = g.L34 * sin(phi5_S - phi34_S) / (L4 * sin(phi4_S - phi5_S))  # [-] lifting rod to lift arm
     U53 = g.L34 * sin(phi34_S - phi4_S) / (g.L5 * sin(phi5_S - phi4_S))  # [-] lower link to lift arm
     U65 = g.L56 * sin(phi7_S - phi5_S) / (g.L6 * sin(phi6_S - phi7_S))  # [-] mast to lower link
     U75 = g.L56 * sin(phi5_S - phi6_S) / (L7 * sin(phi7_S - phi6_S))  # [-] upper link to lower link
     dphi3 = 1 / (g.L3 * sin(phi12_S - phi3_S))  # [rad/m] lift arm
+    dphi3_d = (
+        2 * S / sqrt(4 * L13**2 * g.L3**2 - (S**2 - L13**2 - g.L3**2) ** 2)
+    )  # [rad/m] lift arm by the document's formula, without its sign
     dphi4 = dphi3 * U43  # [rad/m] lifting rod
     dphi5 = dphi3 * U53  # [rad/m] lower link
     dphi6 = dphi3 * U65 * U53  # [rad/m] mast
@@ -567,12 +608,12 @@ def section_4():
 @app.cell
 def capacity(I56, IS6, g):
     F_gc = g.P6 * IS6  # [N] force on the hydraulic cylinders
-    A_gc = pi * g.D_gc**2 / 4  # [cm**2] piston area
-    P_gc = F_gc / (g.k_gc * A_gc * g.eta)  # [MPa] pressure in the cylinders
+    S_gc = pi * g.D_gc**2 / 4  # [cm**2] piston area
+    P_gc = F_gc / (g.k_gc * S_gc * g.eta)  # [MPa] pressure in the cylinders
     G56 = (
-        g.k_gc * g.P_gc_max * g.eta * A_gc / I56
+        g.k_gc * g.P_gc_max * g.eta * S_gc / I56
     )  # [N] capacity at the suspension axis; the document prints IS6, its numbers follow I56
-    GS6 = g.k_gc * g.P_gc_max * g.eta * A_gc / IS6  # [N] capacity at the centre of mass
+    GS6 = g.k_gc * g.P_gc_max * g.eta * S_gc / IS6  # [N] capacity at the centre of mass
     dGS65 = (GS6 - g.P6) / g.P6  # [%] reserve of capacity
     typeset()
     return F_gc, G56, GS6, P_gc, dGS65
@@ -815,10 +856,20 @@ def section_6():
     mo.md(r"""
     ## 6 Steering stability
 
-    Moments about the rear axle give the load $R_\mathrm{a}$ on the steered front wheels. At least a fifth of the whole
-    weight must stay on them. The printed formula for the greatest implement subtracts newtons from newton metres and
-    keeps the present implement's weight in the limit; the right one takes $R_\mathrm{a} = 0.2\,(P + P_\mathrm{msha} +
-    P_\mathrm{gr})$.
+    Forces and moments about the rear axle give the load $R_\mathrm{a}$ on the steered front wheels and $R_\mathrm{b}$
+    on the rear ones:
+
+    $$-P_\mathrm{gr} + R_\mathrm{a} - P_\mathrm{msha} + R_\mathrm{b} - P_6 = 0$$
+
+    $$P_\mathrm{gr} (a + L) - R_\mathrm{a} L + P_\mathrm{msha} b - P_6 X_\mathrm{S6} = 0$$
+
+    The document captions $a$ as the distance from the front wheels to the implement's centre of mass and $b$ as that
+    from the rear wheels to the counterweights; in its moments, and its numbers, they are what 1.6 says. It first
+    prints $R_\mathrm{b}$ with a weight that it does not define in the place of $P_\mathrm{msha}$.
+
+    At least a fifth of the whole weight must stay on the steered wheels. The printed formula for the greatest implement
+    subtracts newtons from newton metres and keeps the present implement's weight in the limit; the right one takes
+    $R_\mathrm{a} = 0.2\,(P + P_\mathrm{msha} + P_\mathrm{gr})$.
     """)
     return
 
@@ -906,7 +957,8 @@ def section_7():
 
     The mast turns about the point where the lines of the lower link and of the upper link meet. Its transmission
     numbers follow from the distances to that pole, whose abscissa from $O_5$ is $N_\mathrm{p} / D_\mathrm{p}$;
-    multiplied out, the check holds for parallel links too, where the pole lies at infinity.
+    multiplied out, the check holds for parallel links too, where the pole lies at infinity. The document's own formulas
+    for it follow.
     """)
     return
 
@@ -925,6 +977,21 @@ def pole(I56, IS6, L7, O5, O7, P56_S, P67_S, PS6_S, dphi5, g, phi6_S, phi7_S):
     )
     typeset(*checks_pole)
     return Imp, Isp, X_p, checks_pole
+
+
+@app.cell
+def printed_7(P56_S, P67_S, PS6_S, dphi6, g):
+    AA = P56_S.imag * g.X05 - g.Y05 * P56_S.real  # [m**2] moment of the line of the lower link about the rear axle
+    BB = g.X07 - P67_S.real  # [m] O7 to the right of P67
+    CC = g.Y07 - P67_S.imag  # [m] O7 above P67
+    DD = g.X05 - P56_S.real  # [m] O5 to the right of P56
+    EE = P67_S.imag * g.X07 - g.Y07 * P67_S.real  # [m**2] moment of the line of the upper link about the rear axle
+    FF = g.Y05 - P56_S.imag  # [m] O5 above P56
+    X_pd = (AA * BB - DD * EE) / (CC * DD - BB * FF)  # [m] abscissa of the pole by the document's formula
+    Imp_d = dphi6 * (P56_S.real - X_pd)  # [-] transmission number of the suspension axis from it
+    Isp_d = dphi6 * (PS6_S.real - X_pd)  # [-] main transmission number from it
+    typeset()
+    return
 
 
 @app.cell

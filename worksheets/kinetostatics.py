@@ -332,8 +332,10 @@ def loads_of_links(
     r"""
     ### 3.2 Inertia forces and moments (figure 1.1)
 
-    Forces are complex numbers too. The plunger does not turn, so it has no inertia moment; the crank has none while it
-    turns evenly.
+    The links have a plane of symmetry parallel to that of the motion, so the inertia of each makes a force at its
+    centre of mass and a moment. A link that moves without turning, or turns evenly, has the force alone: so the
+    plunger, and the crank while $\varepsilon_1 = 0$. One that turns about its own centre of mass has the moment alone.
+    Forces are complex numbers too.
     """
     F_in1 = -g.m1 * a_S1  # [N] (1.1) crank, at S1
     F_in2 = -g.m2 * a_S2  # [N] (1.1) rod 2, at S2
@@ -400,9 +402,12 @@ def section_4():
     mo.md(r"""
     ## 4 Second kind: group (4, 5), rod and slider (program SR2)
 
-    The groups are taken from the last to the first (1.2). The document's links 1, 2, 3, 4 and points A, B of the second
-    kind are here the links 3, 4, 5, 0 and the points D, E; its $\varphi_4$ is $\varphi_{05}$. So its $R_{12}$ is here
-    $R_{34}$, the force of the link 3 on the link 4, its $R_{43}$ is $R_{05}$ and its $R_{23}$ is $R_{45}$.
+    The groups are taken from the last to the first, then the driving link (1.2): so the document's first kind is here
+    the last. Friction is taken as small and left out.
+
+    The document's links 1, 2, 3, 4 and points A, B of the second kind are here the links 3, 4, 5, 0 and the points D,
+    E; its $\varphi_4$ is $\varphi_{05}$. So its $R_{12}$ is here $R_{34}$, the force of the link 3 on the link 4, its
+    $R_{43}$ is $R_{05}$ and its $R_{23}$ is $R_{45}$.
 
     Loads and inertia of a link make one force $F$, of the direction $\gamma$, at its centre of mass, and one moment
     $M$. A component keeps its sign with its number, so the document's cases "if minus, then $\gamma = \varphi -
@@ -422,6 +427,8 @@ def section_4():
     $$\bar R_{34}^n + \bar R_{34}^\tau + \bar F_4 + \bar F_5 + \bar R_{05} = 0 \tag{1.25}$$
 
     $$\bar R_{05} + \bar F_5 + \bar R_{45} = 0 \tag{1.29}$$
+
+    The line of $R_{05}$ passes through E: about it the force of the guide has no arm, $h_{05} = 0$.
     """)
     return
 

@@ -256,6 +256,8 @@ def section_3():
     ## 3 Analytical study
 
     ### Step 4: division of the stroke
+
+    Each part takes the time $\Delta t = t_\mathrm{r} / R$, in which the rod moves by $V_{21} \Delta t = H / R$.
     """)
     return
 
@@ -531,8 +533,13 @@ def section_listings():
     ### The programs as printed (appendix 1, appendix 2)
 
     The Fortran listing has 3.14 for $\pi$, the arcsine (28), and `1/L3*SIN(DF)`, which multiplies by the sine that
-    (20) divides by. The other program takes $\varphi_3$ from the projection on x by the arccosine, where its B is the
-    abscissa of $O_1$: right on the upper half of the circle. Their numbers beside the right ones:
+    (20) divides by; its B is both the distance $b$ and an array. In (24) it has the minus.
+
+    The other program, for the Promin-2, takes $\varphi_3$ from the projection on x by the arccosine, where its B is the
+    abscissa of $O_1$: right on the upper half of the circle. It keeps (21) without the minus, to be read with the
+    opposite sign, and goes on with that in (25). In its (24) the first term lacks $l_2$ and the second one the minus.
+
+    Their numbers beside the right ones:
     """)
     return
 
@@ -555,20 +562,37 @@ def listings(O1, beta0, beta2i, g, l2i, mu, phi2i):
     phi32_listing = phi3_listing - phi2_listing  # [deg] as listed (erratum)
     omega3_listing = 1 / g.l3 * sin(phi32_listing)  # [rad/m] (20) as listed (erratum)
     omega2_listing = -(g.l3 * omega3_listing * cos(phi32_listing) / l2i)  # [rad/m] (21) as listed (erratum)
+    eps3_listing = -(
+        (l2i * omega2_listing**2 + g.l3 * omega3_listing**2 * cos(phi32_listing)) / (g.l3 * sin(phi32_listing))
+    )  # [rad/m**2] (24) as listed, from these (erratum)
+    phi32_promin = phi3_arccos - phi2i  # [deg] of the other program
+    omega3_promin = 1 / (g.l3 * sin(phi32_promin))  # [rad/m] (20) of the other program
+    omega2_promin = g.l3 * omega3_promin * cos(phi32_promin) / l2i  # [rad/m] (21) of the other program (erratum)
+    eps3_promin = (g.l3 * omega3_promin**2 * cos(phi32_promin) - omega2_promin**2) / (
+        g.l3 * sin(phi32_promin)
+    )  # [rad/m**2] (24) of the other program (erratum)
+    eps2_promin = (
+        g.l3 * omega3_promin**2 * sin(phi32_promin) - g.l3 * eps3_promin * cos(phi32_promin) - 2 * omega2_promin
+    ) / l2i  # [rad/m**2] (25) of the other program, from these (erratum)
     typeset()
-    return omega2_listing, omega3_listing, phi2_listing, phi3_arccos, phi3_listing, psi_listing
+    return (
+        eps2_promin, eps3_listing, eps3_promin, omega2_listing, omega2_promin, omega3_listing, omega3_promin,
+        phi2_listing, phi3_arccos, phi3_listing, psi_listing,
+    )  # fmt: skip
 
 
 @app.cell
 def listings_shown(
-    l2i, omega2_l2i, omega2_listing, omega3_l2i, omega3_listing, phi2_listing, phi2i, phi3_arccos, phi3_listing, phi3i
-):
+    eps2_l2i, eps2_promin, eps3_l2i, eps3_listing, eps3_promin, l2i, omega2_l2i, omega2_listing, omega2_promin,
+    omega3_l2i, omega3_listing, omega3_promin, phi2_listing, phi2i, phi3_arccos, phi3_listing, phi3i,
+):  # fmt: skip
     table_34 = table(
         "3.4",
         "The programs' numbers",
         *(l2i, phi2i, phi2_listing, phi3i, phi3_listing, phi3_arccos),
-        *(omega3_l2i, omega3_listing, omega2_l2i, omega2_listing),
-        note="The columns of the listing and of the arccosine are as printed: wrong where they differ.",
+        *(omega3_l2i, omega3_listing, omega3_promin, omega2_l2i, omega2_listing, omega2_promin),
+        *(eps3_l2i, eps3_listing, eps3_promin, eps2_l2i, eps2_promin),
+        note="The columns of the listing, of the arccosine and of Promin are as printed: wrong where they differ.",
     )
     table_34
     return
@@ -580,7 +604,7 @@ def section_310():
     ### Steps 10 and 11: speed of the rod and true values
 
     The pump's flow is constant, so is the speed of the rod. In (14) the document prints $V_{21}$ without its square:
-    that is not an angular acceleration, as its unit shows.
+    that is not an angular acceleration, as its unit shows; both programs have the square.
     """)
     return
 

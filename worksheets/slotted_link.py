@@ -205,6 +205,29 @@ def found(f1, f2, f3, f4, f5, f6, g, phi1_k, units_f, units_x):
 
 
 @app.cell(hide_code=True)
+def section_31():
+    mo.md(r"""
+    ### 3.1 Results of the program
+
+    The velocity and the acceleration of C follow from what is found, in projections on the axes as after (2.38). The
+    acceleration is the whole one, by its magnitude. Table 3 has these numbers, table 1 those of the closed form.
+    """)
+    return
+
+
+@app.cell
+def program(eps3_F, g, omega3_F, phi3_F):
+    VCx_F = -g.L3 * sin(phi3_F) * omega3_F  # [m/s] velocity of C, x
+    VCy_F = g.L3 * cos(phi3_F) * omega3_F  # [m/s] velocity of C, y
+    WCx_F = -g.L3 * cos(phi3_F) * omega3_F**2 - g.L3 * sin(phi3_F) * eps3_F  # [m/s**2] acceleration of C, x
+    WCy_F = -g.L3 * sin(phi3_F) * omega3_F**2 + g.L3 * cos(phi3_F) * eps3_F  # [m/s**2] acceleration of C, y
+    VC_F = sqrt(VCx_F**2 + VCy_F**2)  # [m/s] velocity of C
+    WC_F = sqrt(WCx_F**2 + WCy_F**2)  # [m/s**2] acceleration of C
+    typeset()
+    return VC_F, WC_F
+
+
+@app.cell(hide_code=True)
 def section_4():
     mo.md(r"""
     ## 4 Closed form
@@ -315,8 +338,8 @@ def section_5():
 
 
 @app.cell
-def table_3(SAB_F, VAB_F, WAB_F, eps3_F, omega3_F, phi1_k, phi3_F):
-    table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VAB_F, WAB_F, decimals=3)
+def table_3(SAB_F, VAB_F, VC_F, WAB_F, WC_F, eps3_F, omega3_F, phi1_k, phi3_F):
+    table_3 = table("3", "Find", phi1_k, phi3_F, SAB_F, omega3_F, eps3_F, VC_F, WC_F, VAB_F, WAB_F, decimals=3)
     table_3
     return
 

@@ -178,7 +178,7 @@ def hitch(inputs, places, variants, positions):
     N = positions.shape[1]
     for v in range(len(inputs)):
         (
-            X01, X03, X05, X07, Y01, Y03, Y05, Y07, L3, L5, L6, L34, L56, phi_BD, L7_0, L4_0, Y56_min, S_min, S_max,
+            X01, X03, X05, X07, Y01, Y03, Y05, Y07, L3, L5, L6, L34, L56, phi_BD, L7_pre, L4_pre, Y56_min, S_min, S_max,
             P6, X6, Y6, Y_P56, phi_P6, eta, D_gc, P_gc_max, k_gc, a, b, L, P_gr, P_msha,
         ) = (
             inputs[v, 0], inputs[v, 1], inputs[v, 2], inputs[v, 3], inputs[v, 4], inputs[v, 5], inputs[v, 6],
@@ -192,33 +192,33 @@ def hitch(inputs, places, variants, positions):
         phi13 = atan2(Y03 - Y01, X01 - X03)
 
         P34 = O3 + L34 * unit(angle(pin(O1, O3, S_min, L3, -1) - O3) + phi_BD)
-        L4_guess = (L4_0 * 0.1 + L4_0 * 1.5) * 0.5
+        L4_0 = (L4_pre * 0.1 + L4_pre * 1.5) * 0.5
         reach = size(O5 - P34)
         args4 = (P34, O5, L5, L56, Y56_min)
-        L4 = find(height_by_rod, args4, abs(reach - L5), reach + L5, L4_guess, places, x, y)
+        L4 = find(height_by_rod, args4, abs(reach - L5), reach + L5, L4_0, places, x, y)
         args_S = (O1, O3, L3, phi_BD, L34, O5, L4, L5, L56, Y_P56)
         S_p = find(height_by_stroke, args_S, S_min, S_max, 0.5 * (S_max + S_min), places, x, y)
         P34 = O3 + L34 * unit(angle(pin(O1, O3, S_p, L3, -1) - O3) + phi_BD)
         P56 = O5 + L56 * unit(angle(pin(P34, O5, L4, L5, 1) - O5))
-        L7_guess = (L7_0 * 0.1 + L7_0 * 1.5) * 0.5
+        L7_0 = (L7_pre * 0.1 + L7_pre * 1.5) * 0.5
         reach = size(O7 - P56)
         args7 = (P56, O7, L6, phi_P6)
-        L7 = find(mast_by_link, args7, abs(reach - L6), reach + L6, L7_guess, places, x, y)
+        L7 = find(mast_by_link, args7, abs(reach - L6), reach + L6, L7_0, places, x, y)
         P67 = pin(P56, O7, L6, L7, -1)
 
         LS6 = sqrt(X6**2 + Y6**2)
         r_s = size(complex(X6, Y6) - P67)
         phiS6 = (atan2(Y6, X6) - angle(P67 - P56)) % (2 * pi)
-        A_gc = pi * D_gc**2 / 4
+        S_gc = pi * D_gc**2 / 4
         G6 = complex(0.0, -P6)
         Ra_min = 0.2 * (P6 + P_msha + P_gr)
         out = variants[v]
         out[0] = (S_max - S_min) / (N - 1)
         i = put(out, put(out, put(out, put(out, 1, O1), O3), O5), O7)
-        for value in (L13, phi13, L35, pi - angle(O3 - O5), L4_guess, L4, S_p, L57, pi - angle(O7 - O5), L7_guess):
+        for value in (L13, phi13, L35, pi - angle(O3 - O5), L4_0, L4, S_p, L57, pi - angle(O7 - O5), L7_0):
             out[i] = value
             i += 1
-        for value in (L7, LS6, r_s, phiS6, A_gc):
+        for value in (L7, LS6, r_s, phiS6, S_gc):
             out[i] = value
             i += 1
         i = put(out, i, G6)
@@ -250,8 +250,8 @@ def hitch(inputs, places, variants, positions):
             IS6 = I56 + dphi6 * LS6 * cos(phi6 + phiS6)
 
             F_gc = P6 * IS6
-            P_gc = F_gc / (k_gc * A_gc * eta)
-            G56, GS6 = k_gc * P_gc_max * eta * A_gc / I56, k_gc * P_gc_max * eta * A_gc / IS6
+            P_gc = F_gc / (k_gc * S_gc * eta)
+            G56, GS6 = k_gc * P_gc_max * eta * S_gc / I56, k_gc * P_gc_max * eta * S_gc / IS6
             dGS65 = (GS6 - P6) / P6 if P6 else inf
 
             R56, R07 = reactions(P56, O7, P67, G6, PS6, 0j, O7)

@@ -2,13 +2,13 @@
 
 INPUTS = (
     *("X01", "X03", "X05", "X07", "Y01", "Y03", "Y05", "Y07", "L3", "L5", "L6", "L34", "L56", "phi_BD"),
-    *("L7_0", "L4_0", "Y56_min", "S_min", "S_max", "P6", "X6", "Y6", "Y_P56", "phi_P6"),
+    *("L7_pre", "L4_pre", "Y56_min", "S_min", "S_max", "P6", "X6", "Y6", "Y_P56", "phi_P6"),
     *("eta", "D_gc", "P_gc_max", "k_gc", "a", "b", "L", "P_gr", "P_msha"),
 )
 #: results of a variant, then those of a position; a complex one takes two places
 PER_VARIANT = (
-    *("dS", "O1", "O3", "O5", "O7", "L13", "phi13", "L35", "delta1", "L4_guess", "L4", "S_p", "L57", "delta2"),
-    *("L7_guess", "L7", "LS6", "r_s", "phiS6", "A_gc", "G6", "Ra_min"),
+    *("dS", "O1", "O3", "O5", "O7", "L13", "phi13", "L35", "delta1", "L4_0", "L4", "S_p", "L57", "delta2"),
+    *("L7_0", "L7", "LS6", "r_s", "phiS6", "S_gc", "G6", "Ra_min"),
 )
 PER_POSITION = (
     *("S", "P23_S", "P34_S", "P45_S", "P56_S", "P67_S", "PS6_S", "phi12_S", "phi3_S", "phi34_S", "phi4_S", "phi5_S"),

@@ -85,9 +85,9 @@ def _unloaded(g: Any) -> dict[str, Any]:
 @lru_cache(maxsize=1)  # while the loads alone change
 def _finds(**unloaded: Any) -> Numbers:
     x = exactly(SimpleNamespace(**unloaded))
-    L4, _ = _nearest("L4", _rods(x), (x.L4_0 / 10 + x.L4_0 * 3 / 2) / 2)
+    L4, _ = _nearest("L4", _rods(x), (x.L4_pre / 10 + x.L4_pre * 3 / 2) / 2)
     S_p, P56 = _nearest("S_p", _strokes(x, L4), (x.S_max + x.S_min) / 2)
-    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_0 / 10 + x.L7_0 * 3 / 2) / 2)
+    L7, _ = _nearest("L7", _upper_links(x, P56), (x.L7_pre / 10 + x.L7_pre * 3 / 2) / 2)
     return {"L4": L4, "S_p": S_p, "L7": L7}
 
 
@@ -212,11 +212,11 @@ def _motion(S: Any, lengths: tuple[tuple[str, Any], ...], **unloaded: Any) -> Nu
 
 
 def _capacity(x: Any, at: Numbers) -> Numbers:
-    F_gc, A_gc = x.P6 * at["IS6"], arb.pi() * x.D_gc**2 / 4
-    greatest = x.k_gc * x.P_gc_max * x.eta * A_gc
+    F_gc, S_gc = x.P6 * at["IS6"], arb.pi() * x.D_gc**2 / 4
+    greatest = x.k_gc * x.P_gc_max * x.eta * S_gc
     G56, GS6 = greatest / at["I56"], greatest / at["IS6"]
-    P_gc, dGS65 = F_gc / (x.k_gc * A_gc * x.eta), (GS6 - x.P6) / x.P6
-    return {"F_gc": F_gc, "A_gc": A_gc, "P_gc": P_gc, "G56": G56, "GS6": GS6, "dGS65": dGS65}
+    P_gc, dGS65 = F_gc / (x.k_gc * S_gc * x.eta), (GS6 - x.P6) / x.P6
+    return {"F_gc": F_gc, "S_gc": S_gc, "P_gc": P_gc, "G56": G56, "GS6": GS6, "dGS65": dGS65}
 
 
 def _forces(x: Any, at: Numbers) -> Numbers:

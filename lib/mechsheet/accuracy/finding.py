@@ -71,7 +71,7 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
         return O5 + lever * (plain.rrr(P34, O5, L4, h.L5, +1) - O5)
 
     def as_printed(S: Any, L4: Any) -> Any:
-        return printed.hitch_pins(h, S, L4, h.L7_0)["P56_S"].imag
+        return printed.hitch_pins(h, S, L4, h.L7_pre)["P56_S"].imag
 
     if not known:
         P34 = plain_P34(h.S_min)
@@ -81,7 +81,7 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
             lambda L4: as_printed(h.S_min, L4),
             lambda L4: rise(P34, L4, 0, 1),
             rrr_reach(arm_pin(h, h.S_min), O5, h.L5),
-            *(0.8 * h.L4_0 * factor, h.Y56_min, +1),
+            *(0.8 * h.L4_pre * factor, h.Y56_min, +1),
         )
     L4 = known[0]
     if len(known) == 1:
@@ -112,7 +112,7 @@ def unknown(h: Any, factor: float, *known: float) -> Unknown:
         lambda L7: printed.hitch_pins(h, known[1], L4, L7)["phi6_S"],
         turns,
         rrr_reach(P, O7, h.L6),
-        *(0.8 * h.L7_0 * factor, h.phi_P6, -1),
+        *(0.8 * h.L7_pre * factor, h.phi_P6, -1),
     )
 
 

@@ -35,7 +35,7 @@ def hitch(sheet: Worksheet, g: Any, S: ArrayLike, L4: float, S_p: float, L7: flo
     return r | {name: value for name, value in sheet.run(_RESULTS, {"g": g, **r}).items() if name in _RESULTS}
 
 
-_RESULTS = ("F_gc", "A_gc", "P_gc", "G56", "GS6", "dGS65", "Ra", "Rb", "dRa", "dRb", "Ra_min", "GS6_max")
+_RESULTS = ("F_gc", "S_gc", "P_gc", "G56", "GS6", "dGS65", "Ra", "Rb", "dRa", "dRb", "Ra_min", "GS6_max")
 
 
 def hitch_pins(g: Any, S: Any, L4: float, L7: float) -> Results:
