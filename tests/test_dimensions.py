@@ -406,7 +406,7 @@ PLANTED = [
     ("hitch", "g.P6 * x_6) / g.L  # [N] load", "x_6 / g.P6) / g.L  # [N] load", "Ra", "subtracts"),
     ("hitch", "of=largest * g.L56", "of=largest", "", "the limit is in N, its unit in N·m"),
     ("joint", "F = total(A)  # [cm**2]", "F = total(A * y)  # [cm**2]", "F", "unit [cm**2] does not fit"),
-    ("joint", "M_c = M - N * y_c", "M_c = M - N", "M_c", "M - N: subtracts N from N·m"),
+    ("joint", "M_z = M - N * y_c", "M_z = M - N", "M_z", "M - N: subtracts N from N·m"),
     ("kinetostatics", "s7 = g.l6 + g.l7", "s7 = g.l6 + g.m7", "s7", "g.l6 + g.m7: adds m and kg"),
     ("kinetostatics", "F_in2 = -g.m2 * a_S2", "F_in2 = -g.J2 * a_S2", "F_in2", "unit [N] does not fit"),
     (

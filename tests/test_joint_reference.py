@@ -132,24 +132,29 @@ def reference(g):
             one |= {"sigma_b": one["sigma"][:n], "P_b": one["P"][:n], "P_s": one["P"][n:]}
             one["sigma_s"] = np.where(A[n:] > 0, one["sigma"][n:], 0)
             one |= {"sigma_al": beta * one["sigma_s"], "F": A.sum(), "S": (A * y).sum(), "y_c": centre}
-            one |= {"I_c": (A * (y - centre) ** 2).sum(), "M_c": M - N * centre, "y_0": -a / b, "y_0c": -a / b - centre}
+            one |= {
+                "I_z": (A * (y - centre) ** 2).sum(),
+                "M_z": M - N * centre,
+                "y_no": -a / b,
+                "y_1no": -a / b - centre,
+            }
             for name, value in one.items():
                 section.setdefault(name, []).append(np.atleast_1d(value))
     known |= {name: np.array(v).reshape(2, len(loads), -1) for name, v in section.items()}
-    steps = [iterated(y, A_t, A_c, M, N, g.y_00, g.k_max) for y in known["y"][:, 0] for M, N in loads]
+    steps = [iterated(y, A_t, A_c, M, N, g.y_noo, g.k_max) for y in known["y"][:, 0] for M, N in loads]
     known["y_k"] = np.array([axes for axes, _ in steps]).T.reshape(g.k_max, 2, -1, 1)
     known["n_k"] = np.array([n for _, n in steps]).reshape(2, -1, 1)
     known["step"] = np.arange(1, g.k_max + 1)[:, None, None, None]
     F_e, y_ce = (np.array([read, known[name][0, 0, 0]]) for read, name in ((6.928e-4, "F"), (4.677e-2, "y_c")))
-    (M, N), I_c = loads[0], known["I_c"][0, 0, 0]
-    known |= {"F_e": F_e, "y_ce": y_ce, "S_e": F_e * y_ce, "M_ce": M - N * y_ce}
-    known["y_0ce"] = -N / F_e / ((M - N * y_ce) / I_c)
+    (M, N), I_z = loads[0], known["I_z"][0, 0, 0]
+    known |= {"F_e": F_e, "y_ce": y_ce, "S_e": F_e * y_ce, "M_ze": M - N * y_ce}
+    known["y_1noe"] = -N / F_e / ((M - N * y_ce) / I_z)
     loads = list(zip(g.ring_loads.M, g.ring_loads.N, strict=True))
     rings = [ring(g, alpha, M, N) for alpha in g.alpha for M, N in loads]
     known |= {k: np.array([np.atleast_1d(r[k]) for r in rings]).reshape(len(g.alpha), len(loads), -1) for k in rings[0]}
     known["phi"] = np.array([g.bolts - alpha for alpha in g.alpha])[:, None]
     M, N, m = g.ring_loads.M[:, None], g.ring_loads.N[:, None], len(g.bolts)
-    known |= {"M_r": M, "N_r": N, "c": N * g.r / 2 / M, "y_r0": -N * g.r / 2 / M * g.r}
+    known |= {"M_r": M, "N_r": N, "c": N * g.r / 2 / M, "y_rno": -N * g.r / 2 / M * g.r}
     P_e, p_e = N / m + 2 * abs(M) / g.r / m, N / (2 * np.pi * g.r) - abs(M) / (np.pi * g.r**2)
     return known | {"P_e": P_e, "N_e1": P_e * m, "p_e": p_e, "N_e2": p_e * 2 * np.pi * g.r}
 
@@ -160,7 +165,7 @@ CHANGES = {  # as they are typed
         "d_E": 0, "d_F": 0, "psi": 0.7, "loads": "5e5; -2e4; 0 | -2e5; -13e3; 1e4", "alpha": "2.3; -7.5", "r": 50,
         "bolts": [360 * k / 11 for k in range(11)],
     },
-    "narrow skin": {"psi": 0.4, "k_a": 20, "y_00": 5, "ring_loads": "2e6; 5e3 | 1.2e6; 2.5e4", "t": 20},
+    "narrow skin": {"psi": 0.4, "k_a": 20, "y_noo": 5, "ring_loads": "2e6; 5e3 | 1.2e6; 2.5e4", "t": 20},
     "stringers at the edge of the skin, the ring bent the other way": {
         "psi": 0.5, "ring_loads": "-1.5e6; -2e4 | 1.2e6; 2.5e4", "alpha": "2.3",
     },

@@ -28,7 +28,7 @@ COUNTS = {"guide": 2, "bucket": 2, "landing_gear": 1, "slotted_link": 1, "joint"
 FIXED: dict[str, list[dict[str, Any]]] = {
     "joint": [
         {"loads.M (2)": -150000, "loads.N (1)": -40000},  # other areas act, after other numbers of steps
-        {"loads.M_w (1)": 2e5, "y_00": 12, "stringers.k_t (2)": 1},
+        {"loads.M_w (1)": 2e5, "y_noo": 12, "stringers.k_t (2)": 1},
         {"ring_loads.N (2)": 9e4, "ring_loads.M (1)": -1e6},  # all bolts pull, the other side pulls
         {"k_max": 8},  # other rows
     ],

@@ -958,7 +958,7 @@ def section_7():
     The mast turns about the point where the lines of the lower link and of the upper link meet. Its transmission
     numbers follow from the distances to that pole, whose abscissa from $O_5$ is $N_\mathrm{p} / D_\mathrm{p}$;
     multiplied out, the check holds for parallel links too, where the pole lies at infinity. The document's own formulas
-    for it follow.
+    for it follow, by its letters AA to FF.
     """)
     return
 

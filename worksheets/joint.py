@@ -137,7 +137,7 @@ class Joint:
     ]  # load cases
 
     # 1.4 Search for the neutral axis
-    y_00: float = 0 * cm  # [cm] first neutral axis
+    y_noo: float = 0 * cm  # [cm] first neutral axis
     k_max: int = 10  # [-] number of iterations; >= 1 <= 100
 
     # 1.5 Circular joint, an example of ours
@@ -262,6 +262,10 @@ def section_2():
     mo.md(r"""
     ## 2 Reduced areas (sheets 55, 56)
 
+    Skin and stringers are of an aluminium alloy of the strength 4200 kgf/cm² and the yield strength 3000 kgf/cm², the
+    beams of a steel of 11000 and 8500 kgf/cm² (names of these in the scan are hardly readable). The example compares
+    no stress with them.
+
     All areas are reduced to steel. In tension a beam works together with the skin beside it and with each stringer
     that stands within the width of that skin, on a side where the beam stands itself: no farther from its line than
     the skin is thick. The stringers themselves are not joined in tension. In compression every element works with a
@@ -365,19 +369,19 @@ def equilibrium(A_c, A_t, M, N, display, y):
     F = total(A)  # [cm**2] area of the section
     S = total(A * y)  # [cm**3] first moment of area
     y_c = S / F  # [cm] centroid
-    I_c = total(A * (y - y_c) ** 2)  # [cm**4] second moment of area about the centroid
-    M_c = M - N * y_c  # [kgf*cm] reduced moment, about the centroid
-    y_0 = y_c - N * I_c / (F * M_c)  # [cm] neutral axis
-    y_0c = y_0 - y_c  # [cm] neutral axis from the centroid
-    sigma = N / F + M_c * (y - y_c) / I_c  # [kgf/cm**2] stress
+    I_z = total(A * (y - y_c) ** 2)  # [cm**4] second moment of area about the centroid
+    M_z = M - N * y_c  # [kgf*cm] reduced moment, about the centroid
+    y_no = y_c - N * I_z / (F * M_z)  # [cm] neutral axis
+    y_1no = y_no - y_c  # [cm] neutral axis from the centroid
+    sigma = N / F + M_z * (y - y_c) / I_z  # [kgf/cm**2] stress
     P = sigma * A  # [kgf] force in an element
     typeset(display=display)
-    return A, F, I_c, M_c, P, S, joint, sigma, y_0, y_0c, y_c
+    return A, F, I_z, M_z, P, S, joint, sigma, y_no, y_1no, y_c
 
 
 @app.cell
-def table_31(F, I_c, M, M_c, N, S, case, joint, plane, y_0, y_0c, y_c):
-    table_31 = table("3.1", "Section in equilibrium", plane, case, M, N, M_c, y_0, y_0c, y_c, F, S, I_c)
+def table_31(F, I_z, M, M_z, N, S, case, joint, plane, y_no, y_1no, y_c):
+    table_31 = table("3.1", "Section in equilibrium", plane, case, M, N, M_z, y_no, y_1no, y_c, F, S, I_z)
     _found = [f"- plane {p + 1}, case {k + 1}: {state}" for (p, k), state in np.ndenumerate(joint.state)]
     typeset(table_31, "\n".join(_found))
     return
@@ -389,22 +393,24 @@ def section_31():
     ### 3.1 Sheet 57 as it reads
 
     For plane 1 and case 1 the scan reads $F$ = 6.928 cm² and $y_\mathrm{c}$ = 4.677 cm, line 1 of the table; line 2 is
-    that of table 3.1. Only with the latter follow the other printed numbers: *S* = 33.3 cm³, the reduced moment
-    4.366·10⁵ kgf·cm, the axis −17.9 cm from the centroid with *I* = 4105 cm⁴. One digit of each is misread.
+    that of table 3.1. Only with the latter follow the other printed numbers: $S$ = 33.3 cm³, the reduced moment
+    $M_\mathrm{z}$ = 4.366·10⁵ kgf·cm, the axis $y_\mathrm{1no}$ = −17.9 cm from the centroid with $I_\mathrm{z}$ =
+    4105 cm⁴. One digit of each is misread. The sheet prints −17.9 cm twice, under two names: in equilibrium the areas
+    give the axis that was assumed for them.
     """)
     return
 
 
 @app.cell
-def printed_section(F, I_c, M, N, display, y_c):
+def printed_section(F, I_z, M, N, display, y_c):
     line = arange(1, 3)  # [-] 1 as the scan reads, 2 as computed
     F_e = array([6.928 * cm**2, F[0, 0, 0]])  # [cm**2] area of the section; 6.928 is an erratum
     y_ce = array([4.677 * cm, y_c[0, 0, 0]])  # [cm] centroid; 4.677 is an erratum
     S_e = F_e * y_ce  # [cm**3] first moment of area that follows
-    M_ce = M[0, 0] - N[0, 0] * y_ce  # [kgf*cm] reduced moment that follows
-    y_0ce = -N[0, 0] * I_c[0, 0, 0] / (F_e * M_ce)  # [cm] neutral axis from the centroid that follows
+    M_ze = M[0, 0] - N[0, 0] * y_ce  # [kgf*cm] reduced moment that follows
+    y_1noe = -N[0, 0] * I_z[0, 0, 0] / (F_e * M_ze)  # [cm] neutral axis from the centroid that follows
     typeset(display=display)
-    table_32 = table("3.2", "Plane 1, case 1, as the scan reads and right", line, F_e, y_ce, S_e, M_ce, y_0ce)
+    table_32 = table("3.2", "Plane 1, case 1, as the scan reads and right", line, F_e, y_ce, S_e, M_ze, y_1noe)
     table_32
     return
 
@@ -412,13 +418,16 @@ def printed_section(F, I_c, M, N, display, y_c):
 @app.cell(hide_code=True)
 def section_32():
     mo.md(r"""
-    ### 3.2 The document's iteration
+    ### 3.2 Iteration of the axis
 
-    The document starts from an assumed axis, takes the areas that belong to it, finds the axis of that section, and
-    begins again. This is Newton's method for a system that is linear piece by piece: once the areas repeat, they are
-    the right ones, and the axis stays. Mostly they do after a few steps, but there is no axis where the areas that
-    are met cannot carry the load, and no proof says that they always repeat. It is shown for comparison; the results
-    do not use it.
+    The document's program starts from an assumed axis $y_\mathrm{noo}$, with a first step of 5 cm, an accuracy of 0.001
+    cm and 10 iterations, and prints an objective function beside the axis of each. What function, and how it is made
+    least, is lost with the beginning of the listing. Here the areas that belong to an axis are taken, the axis of that
+    section is found, and so again.
+
+    This is Newton's method for a system that is linear piece by piece: once the areas repeat, they are the right ones,
+    and the axis stays. Mostly they do after a few steps, but there is no axis where the areas that are met cannot
+    carry the load, and no proof says that they always repeat. It is shown for comparison; the results do not use it.
     """)
     return
 
@@ -427,7 +436,7 @@ def section_32():
 def iteration(A_c, A_t, M, N, g, y):
     def iterated():
         """Neutral axes of the successive steps, and from which step on the areas repeat."""
-        stretched, axes, settled = (y - g.y_00) * where(M < 0, -1, 1) > 0, [], []
+        stretched, axes, settled = (y - g.y_noo) * where(M < 0, -1, 1) > 0, [], []
         for _ in range(g.k_max):
             step = bending(y, where(stretched, A_t, A_c), M[:, 0], N[:, 0])
             before, stretched = stretched, step.sigma > 0
@@ -533,7 +542,7 @@ def drawn_case(N):
 
 
 @app.cell
-def scheme(A, g, sigma, y, y_0, z):
+def scheme(A, g, sigma, y, y_no, z):
     def scheme(p, k, side, across):
         """Section in plane p under load case k; side and across name its dimensions."""
         lowest, highest = np.argmin(y[p, 0]), np.argmax(y[p, 0])
@@ -548,7 +557,7 @@ def scheme(A, g, sigma, y, y_0, z):
         for place, part, stress, area in zip(z[p, 0] + 1j * y[p, 0], parts, sigma[p, k], A[p, k], strict=True):
             colour = ("red" if stress > 0 else "blue") if area else ""
             picture = picture.polygon(place + part * square, colour=colour)
-        axis = y_0[p, k, 0]
+        axis = y_no[p, k, 0]
         inside = low < axis < high
         if inside:
             line = (left + right) / 2 + 1.3 * reach * array([-1, 1]) + 1j * axis
@@ -594,6 +603,9 @@ def section_5():
     is compressed and the rims carry $q$ itself; where $M = 0$ the load is spread evenly. Written with $q$, nothing is
     divided by $M$. Bolts at uneven angles are solved approximately: $M_\mathrm{x}$ is the moment across the plane of
     the load that they leave over. A line load in compression is negative.
+
+    For compartments with a framework whose stiffness is not known yet this is a first approximation: a stringer
+    carries the line load over its pitch.
     """)
     return
 
@@ -615,7 +627,7 @@ def ring_loads(display, g):
 def ring_equilibrium(M_r, N_r, display, g, phi):
     ring = circular_joint(g.r, phi, M_r[:, 0], N_r[:, 0])
     c = N_r * g.r / (2 * M_r)  # [-] force parameter of the joint
-    y_r0 = -(N_r * g.r**2 / (2 * M_r))  # [cm] neutral axis
+    y_rno = -(N_r * g.r**2 / (2 * M_r))  # [cm] neutral axis
     phi_no = of_cases(ring.phi_0)  # [deg] angle of the neutral axis, half of the pulled arc
     P_k = ring.P  # [kgf] force in a bolt
     P_max = greatest(P_k)  # [kgf] greatest force in a bolt
@@ -623,7 +635,7 @@ def ring_equilibrium(M_r, N_r, display, g, phi):
     P_str = p_o * g.t  # [kgf] force on a stringer there
     M_x = of_cases(ring.M_x)  # [kgf*cm] moment across the plane, left over
     typeset(display=display)
-    return M_x, P_k, P_max, P_str, c, p_o, phi_no, ring, y_r0
+    return M_x, P_k, P_max, P_str, c, p_o, phi_no, ring, y_rno
 
 
 @app.cell
@@ -669,8 +681,8 @@ def ring_printed(M_r, N_r, P_max, c, display, g, m, p_o, phi, ring):
 
 
 @app.cell
-def tables_51_52(M_r, M_x, N_e1, N_e2, N_r, P_e, P_max, P_str, c, i_P, i_p, load, p_e, p_o, phi_no, plane_r, y_r0):
-    table_51 = table("5.1", "Circular joint", plane_r, load, M_r, N_r, c, y_r0, phi_no, P_max, p_o, P_str, M_x)
+def tables_51_52(M_r, M_x, N_e1, N_e2, N_r, P_e, P_max, P_str, c, i_P, i_p, load, p_e, p_o, phi_no, plane_r, y_rno):
+    table_51 = table("5.1", "Circular joint", plane_r, load, M_r, N_r, c, y_rno, phi_no, P_max, p_o, P_str, M_x)
     table_52 = table("5.2", "Equivalent forces", plane_r, load, N_e1, P_e, N_e2, p_e, i_P, i_p)
     typeset(table_51, table_52)
     return
@@ -729,7 +741,7 @@ def drawn_ring_case(N_r):
 
 
 @app.cell
-def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
+def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_rno):
     def ring_scheme(p, k):
         def out(angle, radius):
             return radius * 1j * exp(-1j * angle)  # angles from the vertical, clockwise
@@ -753,7 +765,7 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_r0):
             text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
             if force > 0:
                 picture = picture.path([out(angle, g.r), end], text if i == greatest_at else "", "red")
-        axis = y_r0[k, 0]
+        axis = y_rno[k, 0]
         if abs(axis) < g.r:
             picture = picture.path([-1.1 * g.r + 1j * axis, 1.1 * g.r + 1j * axis], "n.a.", "green")
         return picture

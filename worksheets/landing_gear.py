@@ -52,7 +52,7 @@ def section_1():
 
     The leg 3 is a bell crank on the hinge $O_2$, the origin; the axis x points to the right, y upwards. The cylinder
     1, 2 on the hinge $O_1$ pushes its crank $O_2 A$ and lengthens: the leg, hanging at first, swings clockwise, to the
-    side of $O_1$.
+    side of $O_1$. The braces 4, 5 and the locks of figure 1 take no part in the calculation.
     """)
     return
 

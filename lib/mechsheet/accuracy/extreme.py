@@ -325,7 +325,7 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
     load = {"M": 3e5, "N": -13e3} | {name: given[name] for name in ("M", "N") if name in given}
     others = {name: value for name, value in given.items() if name not in load}
     sheet, g = _worksheet(worksheets / "joint.py", {**others, "loads": [{**load, "M_w": 0}]})
-    names = sheet.run(["sigma", "P", "y_0", "axes", "steps", "checks_joint"], {"g": g})
+    names = sheet.run(["sigma", "P", "y_no", "axes", "steps", "checks_joint"], {"g": g})
     p = range(2)[at]
     product = {f"sigma_{i}": value for i, value in enumerate(names["sigma"][p, 0])} | {"P": names["P"][p, 0]}
     step = names["steps"][p, 0, 0]
@@ -334,7 +334,7 @@ def joint(worksheets: Path, given: Mapping[str, Any], at: int = -1) -> Case:
         words=_reasons(names["checks_joint"]),
         true=lambda **x: sections.joint(g, x, p + 1),
         x=sections.factors(g),
-        product=lambda _: product | {"y_0": names["y_0"][p, 0, 0]},
+        product=lambda _: product | {"y_0": names["y_no"][p, 0, 0]},
         printed=lambda _: formulas,
     )
 

@@ -64,10 +64,10 @@ def joint_document(g: Any) -> Numbers:
             M, N = load.M + load.M_w, load.N
             sigma, A = _equilibrium(y, areas.A_t, areas.A_c, M, N)
             F, S = sum(A), _dot(A, y)
-            y_c, y_0 = S / F, _axis(y, sigma)
-            I_c, M_c = _dot(A, [(level - y_c) ** 2 for level in y]), M - N * y_c
+            y_c, y_no = S / F, _axis(y, sigma)
+            I_z, M_z = _dot(A, [(level - y_c) ** 2 for level in y]), M - N * y_c
             P = [s * area for s, area in zip(sigma, A, strict=True)]
-            add(sigma=sigma, A=A, P=P, F=F, S=S, y_c=y_c, I_c=I_c, M_c=M_c, y_0=y_0, y_0c=y_0 - y_c)
+            add(sigma=sigma, A=A, P=P, F=F, S=S, y_c=y_c, I_z=I_z, M_z=M_z, y_no=y_no, y_1no=y_no - y_c)
     for alpha in g.alpha:
         for M, N in zip(map(arb, g.ring_loads.M), map(arb, g.ring_loads.N), strict=True):
             ring = _ring([arb(bolt) - arb(alpha) for bolt in g.bolts], arb(g.r), M, N)
