@@ -85,6 +85,17 @@ def test_the_documents_own_formulas_give_its_angles_and_its_pole(sheet):
         assert np.allclose(sheet[name], sheet[own], rtol=1e-13, atol=0), name
 
 
+def test_the_documents_angles_are_lost_where_the_lift_arm_passes_the_line_of_its_hinges(sheet):
+    """Beyond 180 degrees of phi341 its arccosine gives the other side; the worksheet's groups still close."""
+    far = hitch.app.run(defs={"g": replace(sheet["g"], S_max=0.75)})[1]
+    beyond = far["phi341"] > math.pi
+    assert beyond.any() and not beyond.all()
+    for k in (4, 5):
+        off = np.abs(np.exp(1j * (far[f"phi{k}_d"] - far[f"phi{k}_S"])) - 1)
+        assert np.all(off[~beyond] < 1e-13) and np.all(off[beyond] > 0.01), k
+    assert [str(c) for c in far["checks_closing"] + far["checks_loops"] if not c.passed] == []
+
+
 def test_right_load_keeps_a_fifth_on_the_front_axle_and_the_printed_one_does_not(sheet):
     g, x = sheet["g"], sheet["PS6_S"].real
 

@@ -74,7 +74,8 @@ def reference(g):
     link_5, link_7 = P56 - hinge[5], P67 - hinge[7]
     D_p = moment(link_5, link_7)
     pole = hinge[5] + link_5 * moment(hinge[7] - hinge[5], link_7) / D_p  # where the links 5 and 7 meet
-    known |= {"S1": abs(P34 - hinge[5]), "L53": abs(P56 - hinge[7]), "X_p": pole.real}
+    known |= {"S1": abs(P34 - hinge[5]), "L53": abs(P56 - hinge[7]), "X_p": pole.real, "P56_d": P56}
+    known |= {"S1_S": known["S1"], "L53_S": known["L53"]}
     known |= {"D_p": D_p, "N_p / D_p": (pole - hinge[5]).real, "k_p * D_p": turn[6]}
     return known | by_the_document(hinge, P34, P45, P56, P67, known)
 

@@ -55,7 +55,7 @@ def test_every_number_of_every_variant_is_the_one_of_the_worksheet_alone_to_the_
     variants = table(6, 0.05)
     swept = sweep(HITCH, numbers, variants)
 
-    assert len(numbers) == 144 and swept.solved.all() and swept.at_once
+    assert len(numbers) == 168 and swept.solved.all() and swept.at_once
     for i in range(6):
         alone = by_cells(HITCH, numbers, **{name: float(values[i]) for name, values in variants.items()})
         for name in numbers:

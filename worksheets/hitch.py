@@ -153,7 +153,9 @@ def section_2():
     $\varphi_\mathrm{P6}$ from 180°.
 
     The document takes its angles from the law of cosines, by functions that know half of the circle. Its formulas stand
-    below each group with the index d; they hold for the sides of the groups that 1.7 gives, but for whole turns.
+    below each group with the index d. They hold, but for whole turns, for the sides of the groups that 1.7 gives, and
+    while the lift arm keeps to its side of the line $O_3 O_5$: beyond $\varphi_{341}$ = 180° the document's
+    $\varphi_\mathrm{S1}$ has the wrong sign, and so has $\varphi_{53}$ where $P_{56}$ passes the line $O_5 O_7$.
     """)
     return
 
@@ -202,9 +204,8 @@ def group_1(O1, O3, g, s_23):
 @app.cell
 def printed_21(L13, S, g, phi13):
     phi3_d = acos((g.L3**2 + L13**2 - S**2) / (2 * g.L3 * L13)) - phi13  # [deg] lift arm by the document's formula
-    phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
     typeset()
-    return (phi12_printed,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -268,7 +269,7 @@ def printed_22(L35, L4, S, delta1, g, phi34):
     phi4_d = phi41 - delta1  # [deg] lifting rod by the document's formula
     phi5_d = phi51 - delta1  # [deg] lower link by the document's formula
     typeset()
-    return (S1,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -346,15 +347,16 @@ def find_L7(L4, O7, P56, S_p, g, phi6P, s_67):
 
 
 @app.cell
-def printed_23(L4, L57, L7, O7, P56, S, delta2, g):
-    L53 = abs(P56(S, L4) - O7)  # [m] distance O7 P56
+def printed_23(L4, L57, L7, P56, S, delta2, g):
+    P56_d = P56(S, L4)  # [m] suspension axis
+    L53 = sqrt((g.X07 - P56_d.real) ** 2 + (g.Y07 - P56_d.imag) ** 2)  # [m] distance O7 P56
     phi53 = acos((L53**2 + L57**2 - g.L56**2) / (2 * L53 * L57))  # [deg] at O7, from O5 to P56
     phi61 = pi - acos((g.L6**2 + L53**2 - L7**2) / (2 * g.L6 * L53)) + phi53  # [deg] mast from the line O7 O5
     phi71 = acos((L7**2 + L53**2 - g.L6**2) / (2 * L7 * L53)) + phi53  # [deg] upper link from that line
     phi6_d = phi61 - delta2  # [deg] mast by the document's formula
     phi7_d = phi71 - delta2  # [deg] upper link by the document's formula
     typeset()
-    return (L53,)
+    return
 
 
 @app.cell(hide_code=True)
@@ -369,7 +371,7 @@ def section_24():
 
 
 @app.cell
-def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
+def fields(L4, L7, O5, O7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, phi6, phi7):
     P23_S = P23(S)  # [m] pin of the cylinder on the lift arm
     P34_S = P34(S)  # [m] pin of the lifting rod on the lift arm
     P45_S = P45(S, L4)  # [m] pin of the lifting rod on the lower link
@@ -382,8 +384,10 @@ def fields(L4, L7, P23, P34, P45, P56, P67, S, phi12, phi3, phi34, phi4, phi5, p
     phi5_S = phi5(S, L4)  # [deg] lower link
     phi6_S = phi6(S, L7)  # [deg] mast
     phi7_S = phi7(S, L7)  # [deg] upper link
+    S1_S = abs(P34_S - O5)  # [m] distance O5 P34
+    L53_S = abs(P56_S - O7)  # [m] distance O7 P56
     typeset()
-    return P23_S, P34_S, P45_S, P56_S, P67_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
+    return L53_S, P23_S, P34_S, P45_S, P56_S, P67_S, S1_S, phi12_S, phi34_S, phi3_S, phi4_S, phi5_S, phi6_S, phi7_S
 
 
 @app.cell(hide_code=True)
@@ -482,9 +486,8 @@ def section_26():
 
 
 @app.cell
-def loops(
-    L13, L4, L53, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1, g, phi12_S, phi12_printed, phi4_S, phi6_S
-):
+def loops(L13, L4, L53_S, L7, O1, O3, P23_S, P34_S, P45_S, P56_S, P67_S, S, S1_S, g, phi12_S, phi13, phi4_S, phi6_S):
+    phi12_printed = phi13 - acos((S**2 + L13**2 - g.L3**2) / (2 * S * L13))  # [deg] cylinder, as printed (erratum)
     P23s_S = O1 + S * exp(1j * phi12_printed)  # [m] as printed: misses P23 (erratum)
     P23c_S = O1 + S * exp(1j * phi12_S)  # [m] pin of the cylinder from O1
     P34s_S = P45_S - L4 * exp(1j * phi4_S)  # [m] pin of the lifting rod on the lift arm, from P45
@@ -497,8 +500,8 @@ def loops(
     )
     checks_closing = (
         assembled("group (2, 3) closes", P23_S, S, rrr_reach(O1, O3, g.L3), "cylinder S", "m"),
-        assembled("group (4, 5) closes", P45_S, S1, (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
-        assembled("group (6, 7) closes", P67_S, L53, (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
+        assembled("group (4, 5) closes", P45_S, S1_S, (abs(L4 - g.L5), L4 + g.L5), "distance O5 P34", "m"),
+        assembled("group (6, 7) closes", P67_S, L53_S, (abs(L7 - g.L6), L7 + g.L6), "distance O7 P56", "m"),
     )
     typeset(*checks_closing, *checks_loops)
     return P23c_S, P23s_S, P34s_S, P45s_S, P67s_S, checks_closing, checks_loops
