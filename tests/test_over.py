@@ -117,6 +117,15 @@ def test_of_a_field_with_gaps_the_places_are_where_numbers_are(tmp_path: Path) -
     assert shown(run(tmp_path, lines), "y") == "least at x = 1.05, greatest at x = 2"
 
 
+def test_of_ends_that_differ_by_roundings_alone_it_is_the_first(tmp_path: Path) -> None:
+    """Else another processor, or the page in one file, names another turn of the same crank."""
+    lines = "t = np.round(x * 10)  # [-] steps\ny = (t % 4) * (1 + 1e-13 * t)  # [-] least and greatest several times"
+    names = run(tmp_path, f"{lines}\nw = np.where(x > 1, np.inf, y)  # [-] infinite")
+    first, greatest = (names["x"][names["t"] % 4 == rest][0] for rest in (0, 3))
+    assert shown(names, "y") == f"least at x = {first:.5g}, greatest at x = {greatest:.5g}"
+    assert shown(names, "w") == f"least at x = {first:.5g}, greatest at x = {names['x'][names['x'] > 1][0]:.5g}"
+
+
 def test_roundings_beside_large_numbers_are_about_nothing() -> None:
     assert numbers.value([-1.5e-10, 20694.0, 83904.0], "N", HTML) == "≈ 0, 20694, 83904 N"
     assert numbers.value(np.array([0.0, 1e-9]), "m", HTML).startswith("0, 1"), "small, but large beside the others"
@@ -176,8 +185,9 @@ def test_the_terminal_tells_the_places(tmp_path: Path) -> None:
 
 def test_a_page_in_one_file_tells_the_same_places(blank: Page, tmp_path: Path) -> None:
     lines = "y = np.outer(x[:15], x**2)  # [-] one known\nz = 2 * P[:, :1] * np.ones(7)  # [-] one axis lost"
-    names = run(tmp_path, f"{AXES}\n{lines}")
-    for name in ("P", "y", "z"):
+    ties = "w = np.round(x * 10) % 4 * (1 + 1e-13 * x)  # [-] least and greatest several times"
+    names = run(tmp_path, f"{AXES}\n{lines}\n{ties}")
+    for name in ("P", "y", "z", "w"):
         field, known = names[name], over(name, names)
         assert known is not None
         specs = [axis and {"key": axis.line.name, "named": named(axis.line.name)} for axis in known.axes]

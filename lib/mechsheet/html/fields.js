@@ -1,5 +1,6 @@
 // The inputs as texts and as numbers in SI: read, checked against their limits, written into the address and as a scene.
 const NUMBER = /^([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)\s*(.*)$/s;
+const UNIT = /^($|\p{L}|[%°]|1\/)/u; // as Python takes what stands behind a number for a unit
 const COMPARE = {"<": (a, b) => a < b, "<=": (a, b) => a <= b, ">": (a, b) => a > b, ">=": (a, b) => a >= b};
 
 class Refused extends Error {}
@@ -14,11 +15,14 @@ function refuse(field, value, must) {
 // A number in the display unit, from a text behind which another unit may stand.
 function readNumber(field, text) {
   const match = NUMBER.exec(text.trim());
-  if (!match) refuse(field, `'${text.slice(0, 60)}'`, "is no number");
+  if (!match || !UNIT.test(match[2])) refuse(field, `'${text.slice(0, 60)}'`, "is no number");
   let x = Number(match[1].replace(",", ".").replaceAll("−", "-"));
   const unit = match[2].trim();
   if (unit && unit !== field.unit) {
-    if (!(unit in field.units)) refuse(field, `'${text.slice(0, 60)}'`, `has a unit that is none of ${Object.keys(field.units).join(", ") || "them"}`);
+    if (!(unit in field.units)) {
+      const known = Object.keys(field.units).join(", ") || "no unit";
+      throw new Refused(`${field.meaning} ${field.name} = '${text.slice(0, 60)}': ${unit.slice(0, 60)} is not known here: ${known}`);
+    }
     x = Number(significant(x * field.units[unit], 15));
   }
   if (field.whole && !Number.isInteger(x)) refuse(field, x, "must be a whole number");

@@ -136,6 +136,7 @@ function usual(x, to) {
   return sign + (to.power ? to.power(shown, raised) : `${shown}\u202f·\u202f10<sup>${raised}</sup>`);
 }
 
+const ALIKE = 1e-9; // of the span of a field: numbers no further from its end are shown as that end
 const ROUNDING = 2 ** -48; // of the largest number of a field: what is less may be nothing but roundings
 
 const elements = part => (typeof part === "number" ? [part] : part);
@@ -195,7 +196,9 @@ function whereText(parts, over, values) {
   const most = field.reduce((x, y) => (Number.isFinite(y) ? Math.max(x, Math.abs(y)) : x), 0);
   const axes = shape.map((n, k) => (over[k] && values[over[k].key]?.length === n ? over[k] : null));
   if (!(high - low > ROUNDING * most) || !(several || axes.some(Boolean))) return "";
-  const at = x => placeText(field.indexOf(x), shape, axes, values);
+  // Of several turns that differ by roundings alone, the first.
+  const alike = Math.max(ROUNDING * most, Number.isFinite(high - low) ? ALIKE * (high - low) : 0);
+  const at = end => placeText(field.findIndex(x => x === end || Math.abs(x - end) <= alike), shape, axes, values);
   return ` <span class="ms-where">least at ${at(low)}, greatest at ${at(high)}</span>`;
 }
 

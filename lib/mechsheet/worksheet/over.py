@@ -22,6 +22,7 @@ class Axis(NamedTuple):
     values: NDArray[Any]
 
 
+_ALIKE = 1e-9  # of the span of a field: numbers no further from its end are shown as that end
 Written = Callable[[Formula, Any], str]  # how a number of a line is
 
 
@@ -41,9 +42,12 @@ class Over(NamedTuple):
         if values.shape != self.shape or numbers.in_full(values):
             return None
         known = values[~np.isnan(values)]
-        if not known.size or known.max() - known.min() <= numbers.rounding(known):
+        if not known.size or (span := known.max() - known.min()) <= numbers.rounding(known):
             return None
-        least, greatest = (np.argwhere(values == end)[0].tolist() for end in (known.min(), known.max()))
+        # Of several turns that differ by roundings alone, the first.
+        alike = max(numbers.rounding(known), _ALIKE * span if np.isfinite(span) else 0.0)
+        ends = known.min(), known.max()
+        least, greatest = (np.argwhere(np.isclose(values, end, 0, alike))[0].tolist() for end in ends)
         return self._place(least, named, written), self._place(greatest, named, written)
 
     def _place(self, at: Iterable[int], named: Callable[[str], str], written: Written) -> str:
