@@ -15,13 +15,18 @@ from test_page import HITCH, choose
 
 from mechsheet.document.shortened import ENDS
 from mechsheet.html.javascript import runtime
-from mechsheet.page import script, switched, values
+from mechsheet.page import own, script, switched, values
 from mechsheet.units import parse, shown
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import check
 from mechsheet.worksheet.table import Column, Figure, Table
 
-SCRIPT = b64decode(script.script("units.js", "format.js").split(",")[1].split('"')[0]).decode()
+
+def decoded(*names: str) -> str:
+    return b64decode(script.script(*names).split(",")[1].split('"')[0]).decode()
+
+
+SCRIPT = decoded("units.js", "format.js")
 ROWS = runtime("rows.js")
 STYLE = HITCH.with_name("page.css").read_text(encoding="utf-8")
 HALVES = [0.5, 1.5, 2.5, -0.5, 0.125, 0.375, -2.125, 9.5, 99.5, 0.0625, 1e-300, 1e22, -3e25, 0.0, -0.0, -4e-9]
@@ -113,6 +118,37 @@ def test_back_in_its_own_unit_a_table_is_as_it_was(page) -> None:
     choose(page, page.locator("ms-unit:visible").first, "N")
     expect(page.locator("table")).to_have_count(1)
     assert page.locator("table").inner_html() == before
+
+
+def test_marks_in_a_table_are_those_of_its_copy_in_other_units(page) -> None:
+    """The document's own number is in the unit of its column, and a mark that is gone is gone in the copy as well."""
+
+    def forces(first: float) -> Table:
+        S = Column("S", "m", "stroke", 3, np.array([0.1, 0.2]), of="S")
+        F = Column("F", "N", "force", 0, np.array([first, 2500.0]), of="F")
+        return Table("1", "Forces", (S, F))
+
+    def shown() -> list[tuple[str, str | None, str | None]]:
+        drawn(page)
+        drawn(page)  # marks are set on the way to a picture
+        cells = page.locator("td:visible").all()
+        return [(c.text_content(), c.get_attribute("data-own"), c.get_attribute("data-band")) for c in cells]
+
+    document = script.element("ms-own", told={"lines": {}, "checks": {}, "tables": {"1": own._table(forces(1234.0))}})
+    bands = {"lines": {}, "checks": {}, "figures": {}, "tables": {"1": [[["± 0.01", ""], ["± 50", ""]]]}}
+    static(page, f"{values.html(forces(1500.0))}{document}{script.element('ms-bands', told=bands, made=1)}")
+    for name in ("own.js", "bands.js"):
+        page.add_script_tag(content=decoded(name))
+    first, *_ = before = shown()
+    assert first == ("0.100", None, "± 0.01")
+    assert before[1:] == [("1500", "1234", "± 50"), ("0.200", None, None), ("2500", None, None)]
+    choose(page, page.locator("th ms-unit:visible").nth(1), "kN")
+    assert shown() == [first, ("1.500", "1.234", None), ("0.200", None, None), ("2.500", None, None)]
+    choose(page, page.locator("th ms-unit:visible").nth(0), "mm")
+    choose(page, page.locator("th ms-unit:visible").nth(1), "N")
+    assert shown()[:2] == [("100", None, None), before[1]]
+    page.evaluate("document.querySelectorAll('ms-own, ms-bands').forEach(each => each.remove())")
+    assert shown() == [("100", None, None), ("1500", None, None), ("200", None, None), ("2500", None, None)]
 
 
 def test_an_axis_of_a_chart_and_what_the_pointer_tells_follow_the_unit(page) -> None:

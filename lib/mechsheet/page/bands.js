@@ -3,6 +3,7 @@
   if (customElements.get("ms-bands")) return;
 
   const marked = new Set();
+  let current = null; // whose bands are shown
 
   // A bar at each point of a curve, with a stroke at both of its ends.
   function draw(plot, [colour, points]) {
@@ -15,11 +16,20 @@
 
   function mark(target, text) {
     if (!target || !text) return;
-    target.dataset.band = text;
-    marked.add(target);
+    for (const each of [target, inDeclaredUnit(target)].filter(Boolean)) {
+      each.dataset.band = text;
+      marked.add(each);
+    }
+  }
+
+  // The cell that is shown for one whose table is copied into other units, where its own column keeps the declared one.
+  function inDeclaredUnit(cell) {
+    const host = cell.closest("ms-columns");
+    return host && !host.written(cell.cellIndex, []) ? host.copyOf(cell) : null;
   }
 
   function clear() {
+    current = null;
     marked.forEach((target) => delete target.dataset.band);
     marked.clear();
     document.querySelectorAll(".ms-bars").forEach((bar) => bar.remove()); // those copied into another unit too
@@ -27,12 +37,19 @@
 
   // A number that changes has lost its band, and so have all others: they wait for new ones.
   const NUMBERS = ".ms-line, .ms-table, [id^=check-]";
-  const isNumber = ({ target, removedNodes }) => {
+  const isCopy = (node) => node.classList?.contains("ms-chosen");
+  const isExchanged = ({ addedNodes, removedNodes }) => [...addedNodes, ...removedNodes].some(isCopy);
+  const isNumber = (record) => {
+    const { target, addedNodes, removedNodes } = record;
+    if (isExchanged(record) && [...addedNodes, ...removedNodes].every(isCopy)) return false; // the same in another unit
     const shown = (target.closest ? target : target.parentElement)?.closest(NUMBERS);
     if (shown?.isConnected) return !shown.closest(".ms-matters");
     return [...removedNodes].some((e) => e.querySelector && !e.closest(".ms-matters") && (e.matches(NUMBERS) || e.querySelector("[data-band]")));
   };
-  const changes = new MutationObserver((records) => records.some(isNumber) && clear());
+  const changes = new MutationObserver((records) => {
+    if (records.some(isNumber)) clear();
+    else if (records.some(isExchanged)) current?.show();
+  });
 
   class Bands extends HTMLElement {
     static observedAttributes = ["made"];
@@ -52,6 +69,7 @@
 
     show() {
       clear();
+      current = this;
       const { lines, tables, checks, figures } = JSON.parse(this.getAttribute("told"));
       const at = (id) => document.getElementById(id);
       for (const [name, text] of Object.entries(lines)) mark(at(`line-${name}`)?.querySelector(".ms-value"), text);

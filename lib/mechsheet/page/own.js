@@ -32,6 +32,17 @@
     marked.add(target);
   }
 
+  // Cells of a column, and those that are shown for them where their table is copied into other units.
+  function markColumn(cells, texts, values) {
+    const host = cells[0]?.closest("ms-columns");
+    const written = host && values && host.written(cells[0].cellIndex, values);
+    cells.forEach((cell, k) => {
+      mark(cell, texts[k], texts[k]);
+      const copy = cell.dataset.own === undefined ? null : host?.copyOf(cell);
+      if (copy) mark(copy, null, (written ?? texts)[k]);
+    });
+  }
+
   function clear() {
     marked.forEach((target) => delete target.dataset.own);
     marked.clear();
@@ -78,7 +89,8 @@
         blocks.forEach((columns, n) => {
           const rows = shown[n]?.tBodies[0].rows ?? [];
           const now = Number(/of (\d+) are/.exec(shown[n]?.tFoot?.textContent)?.[1] ?? rows.length);
-          if (now === count) columns.forEach((texts, i) => texts.forEach((text, k) => mark(rows[k].cells[i], text, text)));
+          const cells = (texts, i) => texts.map((_, k) => rows[k].cells[i]);
+          if (now === count) columns.forEach(([texts, values], i) => markColumn(cells(texts, i), texts, values));
           else if (shown[n] && !n) mark(caption, "", `${count} rows`); // which of them would be compared is not known
         });
       }

@@ -11,7 +11,7 @@ from mechsheet.document import parts
 from mechsheet.document.blocks import blocks
 from mechsheet.document.markup import compared
 from mechsheet.document.shortened import shortened
-from mechsheet.page import values
+from mechsheet.page import switched, values
 from mechsheet.page.lines import valued
 from mechsheet.page.script import element
 from mechsheet.worksheet.check import Check
@@ -32,10 +32,11 @@ def html(own: Mapping[str, Any]) -> str:
     return element("ms-own", told=told)
 
 
-def _table(table: Table) -> tuple[int, list[list[list[str]]]]:
-    """How many rows there are, and by blocks and columns the texts of those that the page shows."""
+def _table(table: Table) -> tuple[int, list[list[tuple[list[str], switched.Numbers | None]]]]:
+    """How many rows there are, and by blocks and columns the texts of those that the page shows, and their numbers."""
     shown = replace(table, columns=shortened(table.columns)[0])
-    return len(table.columns[0].values), [[values.cells(column) for column in block] for block in blocks(shown)]
+    told = [[(values.cells(column), switched.numbers_of(column)) for column in block] for block in blocks(shown)]
+    return len(table.columns[0].values), told
 
 
 def _verdict(check: Check) -> str:

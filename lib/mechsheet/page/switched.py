@@ -18,6 +18,7 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.numbers import Notation
 from mechsheet.worksheet.table import Column, Figure
 
+Numbers = list[float | str]
 UNIT = "<ms-unit>{}</ms-unit>"  # on which one clicks
 _ALONE = HTML._replace(unit="\u00a0{}", percent="\u00a0%")  # a unit stands in the line of its number
 _SWITCHED = _ALONE._replace(degrees=UNIT.format(HTML.degrees), unit=_ALONE.unit.format(UNIT))
@@ -69,7 +70,7 @@ def _units(unit: str) -> dict[str, tuple[float, str]]:
 
 def columns(shown: Sequence[Column], table: str) -> str:
     """HTML of a table, whose columns follow the units that are chosen for what they show."""
-    told = [_column(column) if column.of and offered(column.unit) else None for column in shown]
+    told = [_column(column) if _switches(column) else None for column in shown]
     return element("ms-columns", table, columns=told) if any(told) else table
 
 
@@ -80,7 +81,7 @@ def chart(figure: Figure, layout: Chart, picture: str) -> str:
     first quantity for which another one is chosen. An axis of quantities in several units stays as it is.
     """
     axes = [_axis(layout, up, on) for up, on in enumerate(([figure.x], figure.lines))]
-    told = [_column(column) if column.of and offered(column.unit) else None for column in (figure.x, *figure.lines)]
+    told = [_column(column) if _switches(column) else None for column in (figure.x, *figure.lines)]
     return element("ms-axes", picture, axes=axes, columns=told) if any(axes) else picture
 
 
@@ -96,6 +97,19 @@ def _axis(layout: Chart, up: int, on: Sequence[Column]) -> dict[str, Any] | None
     }
 
 
+def _switches(column: Column) -> bool:
+    return bool(column.of and offered(column.unit))
+
+
+def numbers_of(column: Column) -> Numbers | None:
+    """Numbers of a column whose unit is switched, in its own; texts where there is none."""
+    return _numbers(column) if _switches(column) else None
+
+
+def _numbers(column: Column) -> Numbers:
+    return [x if isfinite(x) else numbers.fixed(x, 0, numbers.AXIS) for x in column.values.tolist()]
+
+
 def _column(column: Column) -> dict[str, Any]:
     known = {_printed(column.unit): column.unit, **offered(column.unit)}
     return {
@@ -104,5 +118,5 @@ def _column(column: Column) -> dict[str, Any]:
         "units": {label: units.parse(unit).factor for label, unit in known.items()},
         "decimals": column.decimals,
         "power": column.power,
-        "values": [x if isfinite(x) else numbers.fixed(x, 0, numbers.AXIS) for x in column.values.tolist()],
+        "values": _numbers(column),
     }

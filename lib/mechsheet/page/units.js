@@ -84,6 +84,8 @@
   }
   customElements.define("ms-value", Value);
 
+  const isSwitched = (column) => column && chosen.get(column.of) in column.units && chosen.get(column.of) !== column.unit;
+
   class Columns extends Host {
     static observedAttributes = ["columns"];
 
@@ -93,12 +95,12 @@
     }
 
     copied() {
-      const switched = (column) => column && chosen.get(column.of) in column.units && chosen.get(column.of) !== column.unit;
       const columns = this.told("columns");
-      if (!columns.some(switched)) return null;
+      if (!columns.some(isSwitched)) return null;
       const copy = this.firstElementChild.cloneNode(true);
+      for (const cell of copy.querySelectorAll("td")) ["band", "own"].forEach((mark) => delete cell.dataset[mark]); // set anew
       columns.forEach((column, i) => {
-        if (!switched(column)) return;
+        if (!isSwitched(column)) return;
         const unit = chosen.get(column.of);
         copy.querySelectorAll("ms-unit").forEach((each) => {
           if (each.closest("th").cellIndex === i) each.textContent = unit;
@@ -106,10 +108,21 @@
         const texts = inUnit(column, unit);
         [...copy.tBodies[0].rows].forEach((row, k) => {
           row.cells[i].textContent = texts[k];
-          delete row.cells[i].dataset.band; // which is in the other unit
         });
       });
       return copy;
+    }
+
+    // The cell of the copy that stands for one of the table, if there is a copy.
+    copyOf(cell) {
+      const copy = this.querySelector(":scope > .ms-chosen");
+      return copy?.tBodies[0].rows[cell.parentElement.sectionRowIndex]?.cells[cell.cellIndex];
+    }
+
+    // Numbers of a column as the copy writes them; nothing where it shows the declared unit.
+    written(i, values) {
+      const column = this.told("columns")[i];
+      return isSwitched(column) ? inUnit({ ...column, values }, chosen.get(column.of)) : null;
     }
   }
   customElements.define("ms-columns", Columns);
