@@ -29,6 +29,9 @@ FORMS = [  # of what is no array
     "w = [g.F, g.a, 7.0]\ny = w[min(g.k, 2) - 2] * g.F",
     "w = (x > 0.5) * 1\nw[0] = 4 * g.a\ny = w.sum() * 1.0",
 ]
+WHOLE = [  # of which numpy makes whole ones
+    "y = np.piecewise(g.k + 1, [g.k < 0, g.k >= 0], [0, 0.5 * (g.k + 1)]) * 1.0",
+]
 DECIMALS = [  # in an array that looks as if it had whole numbers alone
     "w = np.arange(6) * 1.0\nw[g.k] *= 2 * g.a\ny = w.sum()",
     "w = np.arange(6.0)[::2]\nw[1] = 4 * g.a\ny = w.sum()",
@@ -51,7 +54,7 @@ GUARDED = [  # which asks first whether there is one
 ]
 
 
-@pytest.mark.parametrize("lines", [*SHARED, *IN_PLACE, *DECIMALS, *LENGTHS, *GUARDED, *FORMS])
+@pytest.mark.parametrize("lines", [*SHARED, *IN_PLACE, *DECIMALS, *LENGTHS, *GUARDED, *FORMS, *WHOLE])
 def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
     assert_never_stale(lines, tmp_path)
 

@@ -233,7 +233,8 @@ def _selected(graph: Graph, conditions: Any, choices: Any, default: Any = 0) -> 
 def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
     values = [f(x) if callable(f) else f for f in functions]
     rest = values.pop() if len(values) > len(conditions) else 0
-    return _selected(graph, list(conditions)[::-1], values[::-1], rest)  # of several the last one counts
+    chosen = _selected(graph, list(conditions)[::-1], values[::-1], rest)  # of several the last one counts
+    return chosen.astype(int) if is_whole(lift(graph, x)) else chosen
 
 
 def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:

@@ -33,7 +33,7 @@ ELEMENTWISE: dict[str, Callable[..., Values]] = {
 SHAPED = ("like", "sized")  # whose further operands give the shape alone
 REDUCE: dict[str, Callable[..., Any]] = {
     "max": np.max, "min": np.min, "sum": np.sum, "prod": np.prod, "any": np.any, "all": np.all, "argmax": np.argmax,
-    "argmin": np.argmin, "nanmax": np.nanmax, "nanmin": np.nanmin, "nansum": np.nansum,
+    "argmin": np.argmin, "nanmax": np.fmax.reduce, "nanmin": np.fmin.reduce, "nansum": np.nansum,
 }  # fmt: skip
 REDUCE_SO_FAR = {"sum": np.add, "prod": np.multiply, "max": np.maximum, "min": np.minimum, "all": np.logical_and}
 

@@ -38,7 +38,7 @@ def _is_new(value: ast.expr) -> bool:
     return isinstance(value, ast.Constant | ast.BinOp | ast.UnaryOp | ast.Compare | ast.List | ast.ListComp)
 
 
-def told(function: ast.FunctionDef, own: Set[str], changes: Set[str]) -> None:
+def marked(function: ast.FunctionDef, own: Set[str], changes: Set[str]) -> None:
     """Tell changes of arrays that nobody else knows from others."""
     for node in ast.walk(function):
         match node:

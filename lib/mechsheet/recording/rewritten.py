@@ -322,7 +322,7 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         self.within = outside
         if not outside:
-            own_arrays.told(node, own, CALLS.keys())
+            own_arrays.marked(node, own, CALLS.keys())
         return node
 
     def binds(self, name: str) -> bool:
