@@ -1,11 +1,12 @@
 """What Python code can reach and change in place: lists, arrays, objects, what functions keep."""
 
 import dis
+import gc
 import sys
 import weakref
 from collections import deque
 from collections.abc import Iterable, Mapping
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import chain
 from types import (
     BuiltinFunctionType,
@@ -15,6 +16,7 @@ from types import (
     GetSetDescriptorType,
     MappingProxyType,
     MemberDescriptorType,
+    MethodType,
     ModuleType,
 )
 from typing import Any, NamedTuple
@@ -30,10 +32,25 @@ _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
 _SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
-    int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, BuiltinFunctionType, range, slice, type(None),
-    GetSetDescriptorType, MemberDescriptorType, property, staticmethod, classmethod, _FIELD, Node,
+    int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
+    MemberDescriptorType, _FIELD, Node,
 )  # fmt: skip
-_UNCHANGED = (tuple, frozenset, FunctionType)  # though what they hold may change
+_SEEN = (
+    list,
+    tuple,
+    dict,
+    set,
+    frozenset,
+    deque,
+    np.ndarray,
+    CellType,
+    FunctionType,
+    type,
+)  # of which all parts are known
+_UNCHANGED = (  # though what they hold may change
+    tuple, frozenset, slice, FunctionType, BuiltinFunctionType, MethodType, partial, property, staticmethod,
+    classmethod,
+)  # fmt: skip
 
 
 class Memory:
@@ -42,24 +59,38 @@ class Memory:
     def __init__(self, values: Iterable[Any], own: Mapping[str, Any]) -> None:
         """Functions are looked into where their global names are the ``own`` ones of the worksheet."""
         self.nodes = list[Node]()  # of quantities
+        self.functions = list[FunctionType]()  # of the worksheet
         self.arrays = set[int]()  # identities of arrays, of what shows elements of another one that
         self.held: dict[int, tuple[Any, list[Any] | None]] = {}  # what is held, and its parts, by the identity
-        waiting = list(values)
+        beneath = set[int]()  # identities of what nobody compares: it stands in what only its own code looks into
+        waiting = [(value, False) for value in values]
         while waiting:
-            value = waiting.pop()
+            value, hidden = waiting.pop()
+            if isinstance(value, Quantity | np.ndarray):
+                value = owner(value)
             if isinstance(value, Quantity):
                 self.nodes.extend(value.nodes)
-                self.held[id(owner(value))] = (), []  # which nobody holds by this
+                self.held[id(value)] = (), []  # which nobody holds by this
                 if value.ndim:
-                    self.arrays.add(id(owner(value)))
-            elif not (isinstance(value, _LEAVES) or id(value) in self.held or _foreign(value, own)):
-                value = owner(value)
-                parts = _parts(value)
+                    self.arrays.add(id(value))
+                continue
+            if isinstance(value, _LEAVES) or id(value) in (beneath if hidden else self.held):
+                continue
+            if _foreign(value, own):
+                waiting += ((part, True) for part in _kept(value, own))
+                continue
+            parts = _parts(value)
+            if isinstance(value, np.ndarray):
+                self.arrays.add(id(value))
+            if isinstance(value, FunctionType):
+                self.functions.append(value)
+            if hidden:
+                beneath.add(id(value))
+            else:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = (known, parts)
-                if isinstance(value, np.ndarray):
-                    self.arrays.add(id(value))
-                waiting += parts or ()
+            waiting += ((part, hidden) for part in parts or ())
+            waiting += ((part, True) for part in _hidden(value))
 
     def mutable(self) -> set[int]:
         """Identities of what can be changed in place."""
@@ -76,12 +107,22 @@ class Memory:
         """Names of values that reach one of some objects."""
         if not objects:
             return set()
-        return {name for name, value in names.items() if not objects.isdisjoint(Memory([value], names).held)}
+        each = ((name, value) for name, value in names.items() if name != "__builtins__")
+        return {name for name, value in each if _reaches(value, objects, names)}
 
     @staticmethod
     def sharing(names: Mapping[str, Any], others: Iterable[Any]) -> set[str]:
         """Names of values that reach an array which some others reach: they change with it."""
         return Memory.named(names, Memory(others, names).arrays)
+
+
+def _reaches(value: Any, objects: set[int], own: Mapping[str, Any]) -> bool:
+    if isinstance(value, Quantity):
+        return id(owner(value)) in objects
+    if isinstance(value, _LEAVES) or (_foreign(value, own) and not _kept(value, own)):
+        return False
+    reached = Memory([value], own)
+    return not (objects.isdisjoint(reached.held) and objects.isdisjoint(reached.arrays))
 
 
 def sets_of_others(codes: Iterable[CodeType]) -> bool:
@@ -90,15 +131,39 @@ def sets_of_others(codes: Iterable[CodeType]) -> bool:
 
 
 def _is_fixed(value: Any) -> bool:
-    own = type(value).__module__.startswith("mechsheet.") and not isinstance(value, Sifted)
-    return own or isinstance(value, _UNCHANGED)
+    return (_of_this(value) and not isinstance(value, Sifted)) or isinstance(value, _UNCHANGED)
 
 
 def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
-    """Functions and classes that are none of the worksheet's own."""
+    """Functions, classes and what they are declared with that are none of the worksheet's own."""
     if isinstance(value, FunctionType):
         return value.__globals__ is not own
-    return isinstance(value, type) and value.__module__ in sys.modules
+    known = isinstance(value, type) and (value.__module__ in sys.modules or hasattr(value, "__inputs__"))
+    return known or type(value).__module__ == "typing"
+
+
+_EMPTY = weakref.WeakSet[Any]()  # functions that keep nothing
+
+
+def _kept(value: Any, own: Mapping[str, Any]) -> list[Any]:
+    """What a function that is none of the worksheet's own keeps of those that were given where it was made."""
+    cells = getattr(value, "__closure__", None)
+    if not cells or value in _EMPTY:
+        return []
+    held = (part for cell in cells for part in _content(cell) if not _of_this(part) or isinstance(part, Quantity))
+    kept = [x for x in held if not isinstance(x, _LEAVES) and not (_foreign(x, own) and not _kept(x, own))]
+    if not kept:
+        _EMPTY.add(value)
+    return kept
+
+
+def _hidden(value: Any) -> Iterable[Any]:
+    """What a value refers to that is none of its parts: the arguments of a partial, the columns of a data frame."""
+    return () if isinstance(value, _SEEN) or _of_this(value) else gc.get_referents(value)
+
+
+def _of_this(value: Any) -> bool:
+    return type(value).__module__.startswith("mechsheet.")
 
 
 def _parts(value: Any) -> list[Any] | None:
@@ -118,6 +183,12 @@ def _parts(value: Any) -> list[Any] | None:
             )
         case CellType():
             return _content(value)
+        case type():
+            return [*vars(value).values(), *value.__bases__]
+        case MethodType():
+            return [value.__self__, value.__func__]
+        case partial():
+            return [value.func, *value.args, *value.keywords.values()]
         case FunctionType():
             return [*(value.__closure__ or ()), *(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
     slots = getattr(type(value), "__slots__", None)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
-from types import CodeType, FunctionType
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -187,8 +187,7 @@ class Run(OfPositions):
         del graph.gone[:], graph.chosen[:]
         staged.set(stage.shows)
         reads = self.read(facts.loaded)
-        functions = (f for f in map(self.names.get, reads) if isinstance(f, FunctionType))
-        codes = [facts.code, *(f.__code__ for f in functions if f.__globals__ is self.names)]
+        codes = [facts.code, *(f.__code__ for f in self.reached(reads).functions)]
         changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
         final = {name for name in touched if name not in later and not name.startswith("_")}
@@ -197,7 +196,7 @@ class Run(OfPositions):
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
-        before = Memory((self.names.get(name) for name in under - {*self.asked}), self.names)
+        before = self.reached(under)
         may_change = any(map(changes, codes))
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         others = Memory.sharing(self.names, arrays).difference(touched)
@@ -418,15 +417,16 @@ class Run(OfPositions):
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""
-        waiting = [*loaded]
-        found = {*waiting}
+        found, waiting = set[str](), {*loaded}
         while waiting:
-            value = self.names.get(waiting.pop())
-            if isinstance(value, FunctionType) and value.__globals__ is self.names:
-                new = shared_by(value.__code__) - found
-                found |= new
-                waiting += new
+            found |= waiting
+            codes = (f.__code__ for f in self.reached(waiting).functions)
+            waiting = set[str]().union(*map(shared_by, codes)) - found
         return frozenset(found)
+
+    def reached(self, names: Iterable[str]) -> Memory:
+        """All that the values of some names reach, but for the inputs."""
+        return Memory((self.names.get(name) for name in names if name not in self.asked), self.names)
 
     def leaves(
         self, facts: statement.Statement, reads: frozenset[str], codes: Iterable[CodeType], before: Memory
