@@ -423,14 +423,17 @@ def test_a_mark_on_every_output_styles_the_outputs_and_not_what_stands_in_them(b
     drawn(page)
     mark = "mark => { document.querySelectorAll('.output-area').forEach((e) => e.classList.toggle('x', mark)); }"
     elements = page.evaluate("() => document.querySelectorAll('.output-area *').length")
-    browser.start_tracing(page=page, categories=["devtools.timeline"])
-    page.evaluate(mark, True)
-    drawn(page)
-    events = json.loads(browser.stop_tracing())["traceEvents"]
-    styled = sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree")
-    page.evaluate(mark, False)
+    styled = []
+    for _ in range(3):  # what the page does beside it comes on top
+        browser.start_tracing(page=page, categories=["devtools.timeline"])
+        page.evaluate(mark, True)
+        drawn(page)
+        events = json.loads(browser.stop_tracing())["traceEvents"]
+        styled.append(sum(e["args"].get("elementCount", 0) for e in events if e["name"] == "UpdateLayoutTree"))
+        page.evaluate(mark, False)
+        drawn(page)
     page.set_viewport_size(SIZE)
-    assert 0 < styled < elements / 20
+    assert 0 < min(styled) < elements / 20
 
 
 def test_play_moves_the_slider_until_it_is_stopped(page):
