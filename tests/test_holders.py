@@ -22,6 +22,9 @@ NUMBER_OF = {  # what holds the input F, and how it gives it back
     "import operator\nd = operator.methodcaller('__mul__', g.F)": "d(2.0)",
     "d = np.vectorize(lambda q: q * g.F)": "d(np.array([1.0, 2.0]))[1]",
     "from scipy.interpolate import interp1d\nd = interp1d([0.0, 1.0], [g.F, 2.0])": "float(d(0.5))",
+    "class L(list):\n    pass\nd = L([1.0])\nd.q = g.F": "d.q",
+    "def d():\n    return d.q\nd.q = g.F": "d()",
+    "def made(q):\n    def f(n):\n        return q if n == 0 else f(n - 1) * 0.5\n    return f\nd = made(g.F)": "d(2)",
     "L = [1.0]\nL.append(g.F)\nd = L.copy": "d()[1]",
 }
 OTHERS = ["d = slice(None, g.k)\ny = np.insert(np.arange(9.0)[d], 0, 3.0).sum()"]

@@ -35,18 +35,7 @@ _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
     MemberDescriptorType, _FIELD, Node,
 )  # fmt: skip
-_SEEN = (
-    list,
-    tuple,
-    dict,
-    set,
-    frozenset,
-    deque,
-    np.ndarray,
-    CellType,
-    FunctionType,
-    type,
-)  # of which all parts are known
+_SEEN = {list, tuple, dict, set, frozenset, deque, np.ndarray, CellType, FunctionType, type}  # of parts alone
 _UNCHANGED = (  # though what they hold may change
     tuple, frozenset, slice, FunctionType, BuiltinFunctionType, MethodType, partial, property, staticmethod,
     classmethod,
@@ -145,21 +134,22 @@ def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
 _EMPTY = weakref.WeakSet[Any]()  # functions that keep nothing
 
 
-def _kept(value: Any, own: Mapping[str, Any]) -> list[Any]:
+def _kept(value: Any, own: Mapping[str, Any], within: frozenset[Any] = frozenset()) -> list[Any]:
     """What a function that is none of the worksheet's own keeps of those that were given where it was made."""
     cells = getattr(value, "__closure__", None)
-    if not cells or value in _EMPTY:
+    if not cells or value in _EMPTY or value in within:
         return []
     held = (part for cell in cells for part in _content(cell) if not _of_this(part) or isinstance(part, Quantity))
-    kept = [x for x in held if not isinstance(x, _LEAVES) and not (_foreign(x, own) and not _kept(x, own))]
-    if not kept:
+    inner = within | {value}
+    kept = [x for x in held if not isinstance(x, _LEAVES) and not (_foreign(x, own) and not _kept(x, own, inner))]
+    if not kept and not within:
         _EMPTY.add(value)
     return kept
 
 
 def _hidden(value: Any) -> Iterable[Any]:
     """What a value refers to that is none of its parts: the arguments of a partial, the columns of a data frame."""
-    return () if isinstance(value, _SEEN) or _of_this(value) else gc.get_referents(value)
+    return () if type(value) in _SEEN or _of_this(value) else gc.get_referents(value)
 
 
 def _of_this(value: Any) -> bool:
@@ -190,7 +180,8 @@ def _parts(value: Any) -> list[Any] | None:
         case partial():
             return [value.func, *value.args, *value.keywords.values()]
         case FunctionType():
-            return [*(value.__closure__ or ()), *(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
+            given = *(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()
+            return [*(value.__closure__ or ()), *given, *vars(value).values()]
     slots = getattr(type(value), "__slots__", None)
     if hasattr(value, "__next__") or not (slots or hasattr(value, "__dict__")):
         return None
