@@ -28,6 +28,7 @@ IN_PLACE = [  # what changes nothing with the inputs that are recorded
 FORMS = [  # of what is no array
     "w = [g.F, g.a, 7.0]\ny = w[min(g.k, 2) - 2] * g.F",
     "w = (x > 0.5) * 1\nw[0] = 4 * g.a\ny = w.sum() * 1.0",
+    "w = (x > 0.5) / 1\nw[0] = 4 * g.a\ny = w.sum() * 1.0",
 ]
 WHOLE = [  # of which numpy makes whole ones
     "y = np.piecewise(g.k + 1, [g.k < 0, g.k >= 0], [0, 0.5 * (g.k + 1)]) * 1.0",

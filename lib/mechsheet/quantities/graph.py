@@ -388,7 +388,7 @@ class Graph(Lengths):
         return self.fold("mul", a, b)
 
     def div(self, a: Node, b: Node) -> Node:
-        if (is_number(b, 1) and not is_whole(a, self.whole)) or is_number(a, 0):
+        if is_number(a, 0) or (is_number(b, 1) and self.alone(a, self.constant(1.0))):
             return a
         return self.neg(self.div(a.args[0], b)) if a.op == "neg" else self.fold("div", a, b)
 

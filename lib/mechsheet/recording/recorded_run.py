@@ -187,7 +187,9 @@ class Run(OfPositions):
         del graph.gone[:], graph.chosen[:]
         staged.set(stage.shows)
         reads = self.read(facts.loaded)
-        codes = [facts.code, *(f.__code__ for f in self.reached(reads).functions)]
+        under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
+        before = self.reached(under)
+        codes = [facts.code, *(f.__code__ for f in before.functions)]
         changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
         final = {name for name in touched if name not in later and not name.startswith("_")}
@@ -195,8 +197,6 @@ class Run(OfPositions):
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
-        under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
-        before = self.reached(under)
         may_change = any(map(changes, codes))
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         others = Memory.sharing(self.names, arrays).difference(touched)
@@ -255,8 +255,7 @@ class Run(OfPositions):
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
             former = self.looked.get(name, ()) if name in facts.former else ()
             inputs = self.recording.inputs.values() if name in unknown else ()
-            of_now = (Guard(graph.same(leaf), line) for leaf in inputs)
-            self.looked[name] = *rests.values(), *former, *of_now
+            self.looked[name] = *rests.values(), *former, *self.while_are(inputs)
             self.hold(name, self.looked[name])
             if isinstance(value := self.names.get(name), Selected) and name in self.lines and not value.draws:
                 self.note(Guard(value.same, graph.line))
@@ -338,7 +337,7 @@ class Run(OfPositions):
             for name, number in zip(touched, own, strict=True):  # the same for all inputs
                 self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
             return
-        guards = tuple(Guard(graph.same(leaf), graph.line) for leaf in rests_on)
+        guards = self.while_are(rests_on)
         if not final or not final.issuperset(touched) or any(held(self.namespace.get(name)) for name in final):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
                 public, gaps = tuple(name for name in touched if not name.startswith("_")), self.recording.gaps
@@ -364,13 +363,13 @@ class Run(OfPositions):
                 self.names.pop(name, None)
                 self.lost[name] = reason
                 if self.to_change - {name}:  # which may be other names of it
-                    self.looked[name] = (*(Guard(graph.same(x), graph.line) for x in self.recording.inputs.values()),)
+                    self.looked[name] = self.while_are(self.recording.inputs.values())
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
         every = [*self.recording.inputs.values()]
         for name in names:
-            self.looked[name] = tuple(Guard(self.graph.same(leaf), self.graph.line) for leaf in every)
+            self.looked[name] = self.while_are(every)
             if name in self.namespace and name not in later:
                 self.names[name] = stage.kept(self.namespace[name], every)
             else:
@@ -406,6 +405,10 @@ class Run(OfPositions):
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
         return x
+
+    def while_are(self, leaves: Iterable[Node]) -> tuple[Guard, ...]:
+        """That some quantities are what they are now."""
+        return tuple(Guard(self.graph.same(leaf), self.graph.line) for leaf in leaves)
 
     def note(self, guard: Guard) -> None:
         """Note a guard, at the first line that saw the same."""

@@ -302,7 +302,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
-        own = own_arrays.of_its_own(node)
+        own = set[str]() if self.within else own_arrays.of_its_own(node)
         if not any(is_of_the_whole(part) for part in ast.walk(node)):
             node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
             for n, line in enumerate(node.body):

@@ -26,7 +26,6 @@ _TEXTS = {"typeset", "print"}  # calls whose result stands on the page alone
 _ARGUMENTS = {
     f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
 }
-_CHANGING = {"append", "extend", "insert", "update", "add", *ARRANGING}  # methods
 _SCOPES = ast.Lambda, ast.FunctionDef, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
 _BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
@@ -224,7 +223,7 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[str]:
     """Names of what a statement may change in place: a list that something is appended to, an array's element."""
     for node in nodes:
         match node:
-            case ast.Call(ast.Attribute(ast.Name(name), method)) if method in _CHANGING:
+            case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add")):
                 yield name
     yield from _in_place(nodes)
 

@@ -138,8 +138,9 @@ class Input:
         return bool(np.all(a == b))
 
     def taken(self, value: Any) -> Any:
-        """The value that is held where code gives this one, in SI."""
-        return value
+        """The value that is held where code gives this one, in SI: what is not whole has decimals."""
+        whole = type(value) is int or isinstance(value, np.integer)
+        return float(value) if whole and not self.whole else value
 
     def first(self, value: Any) -> Any:
         """The value that is held where the line that declares it gives this one; SheetError where it cannot be."""
@@ -149,7 +150,7 @@ class Input:
         if isinstance(value, bool | np.bool_) or not isinstance(value, int | float | np.integer | np.floating):
             raise SheetError(f"{given} is no number")
         if not self.whole:
-            return float(value) if isinstance(value, int | np.integer) else value
+            return self.taken(value)
         # 1450 of [rpm] are turns a minute, 1450 * rpm is in SI as whatever is computed
         shown = value if isinstance(value, int | np.integer) else self.display(value)
         if not float(shown).is_integer():
@@ -171,8 +172,6 @@ class Input:
     def held(self, leaves: Mapping[str, Any]) -> Any:
         """The value made of its leaves, which may be arrays of variants or quantities of a recording."""
         value = leaves[self.name]
-        if isinstance(value, int | np.integer) and not self.whole:
-            return float(value)
         return int(value) if self.counted and isinstance(value, int | float | np.number) else value
 
 
