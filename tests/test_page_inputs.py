@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from conftest import ROOT, WITHIN, until
+from conftest import ROOT, WITHIN, drawn, until
 from playwright.sync_api import Route, expect
 
 from mechsheet import evaluate, units
@@ -239,6 +239,25 @@ def test_a_page_that_is_opened_again_shows_what_the_editor_computes_with(
     page.get_by_text("copy a link").first.wait_for()
     expect(page.locator('td[data-input="parts"] input').nth(1)).to_have_value("5")
     computed(page, a="0.7", parts="1; 5; 3")
+
+
+# A field takes it as from the hand; the page does not know of it, as of what is typed before its scripts are there.
+UNHEARD = """(field, text) => {
+  Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set.call(field, text);
+  field.dispatchEvent(new InputEvent("input", {bubbles: true}));
+}"""
+
+
+def test_what_is_typed_before_the_page_listens_stays(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:
+    """The field took its former text again when the page told what it had computed, and the user's was lost."""
+    page = left_open(kinds, "as in the document")
+    field = page.locator('td[data-input="a"] input')
+    field.evaluate(UNHEARD, "0.7")
+    page.evaluate("document.querySelector('ms-states').follow()")
+    drawn(page)
+    expect(field).to_have_value("0.7")
+    field.press("Enter")
+    computed(page, a="0.7")
 
 
 def test_a_link_that_is_pasted_into_the_open_page_holds(kinds: Path, left_open: Callable[[Path, str], Page]) -> None:

@@ -75,6 +75,12 @@
     return field.getAttribute("aria-checked") === "true" || field.checked === true ? "yes" : "no";
   }
 
+  // What a field has shown first.
+  function begun(name) {
+    const [first] = [JSON.parse(hostOf(name).dataset.initialValue)].flat();
+    return typeof first === "boolean" ? (first ? "yes" : "no") : first;
+  }
+
   // Names of the fields that show anything but a set of texts, be it in other words.
   function others(texts) {
     const shows = ({ name, said, text }) => {
@@ -153,10 +159,12 @@
       if (!asked) whenIdle(() => this.address()); // which takes longer than all else here
     }
 
-    // Fields begin anew where a page is opened again on an editor that still computes with what was typed before.
+    // Fields begin anew where a page is opened again on an editor that still computes with what was typed before. One
+    // that shows something else was typed into before anything here listened.
     resume(tries = 100) {
       if (tries && !fields.every(({ name }) => fieldOf(name))) return setTimeout(() => this.resume(tries - 1), 100);
-      const stale = fields.filter(({ name, said, text }) => !moved.has(name) && ![said, text].includes(words(name) ?? said));
+      const anew = fields.filter(({ name }) => !moved.has(name) && fieldOf(name) && words(name) === begun(name));
+      const stale = anew.filter(({ name, said, text }) => ![said, text].includes(words(name)));
       if (!stale.length) return;
       stale.forEach(({ name }) => unheard.add(name));
       this.to({ ...textsNow(), ...asked });
