@@ -35,6 +35,8 @@ _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
     MemberDescriptorType, _FIELD, Node,
 )  # fmt: skip
+# Types of most of what stands in lists: their instances are leaves, which the others are looked through for one by one.
+_PLAIN = {int, float, complex, bool, str, bytes, np.float64, np.int64, np.bool_, ModuleType, type(None), Node}
 _SEEN = {list, tuple, dict, set, frozenset, deque, np.ndarray, CellType, FunctionType, type}  # of parts alone
 _UNCHANGED = (  # though what they hold may change
     tuple, frozenset, slice, FunctionType, BuiltinFunctionType, MethodType, partial, property, staticmethod,
@@ -52,7 +54,7 @@ class Memory:
         self.arrays = set[int]()  # identities of arrays, of what shows elements of another one that
         self.held: dict[int, tuple[Any, list[Any] | None]] = {}  # what is held, and its parts, by the identity
         beneath = set[int]()  # identities of what nobody compares: it stands in what only its own code looks into
-        waiting = [(value, False) for value in values]
+        waiting = _to_look_at(values, hidden=False)
         while waiting:
             value, hidden = waiting.pop()
             if isinstance(value, Quantity | np.ndarray):
@@ -66,7 +68,7 @@ class Memory:
             if isinstance(value, _LEAVES) or id(value) in (beneath if hidden else self.held):
                 continue
             if _foreign(value, own):
-                waiting += ((part, True) for part in _kept(value, own))
+                waiting += _to_look_at(_kept(value, own), hidden=True)
                 continue
             parts = _parts(value)
             if isinstance(value, np.ndarray):
@@ -78,8 +80,8 @@ class Memory:
             else:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = (known, parts)
-            waiting += ((part, hidden) for part in parts or ())
-            waiting += ((part, True) for part in _hidden(value))
+            waiting += _to_look_at(parts or (), hidden)
+            waiting += _to_look_at(_hidden(value), hidden=True)
 
     def mutable(self) -> set[int]:
         """Identities of what can be changed in place."""
@@ -103,6 +105,10 @@ class Memory:
     def sharing(names: Mapping[str, Any], others: Iterable[Any]) -> set[str]:
         """Names of values that reach an array which some others reach: they change with it."""
         return Memory.named(names, Memory(others, names).arrays)
+
+
+def _to_look_at(values: Iterable[Any], hidden: bool) -> list[tuple[Any, bool]]:
+    return [(value, hidden) for value in values if type(value) not in _PLAIN]
 
 
 def _reaches(value: Any, objects: set[int], own: Mapping[str, Any]) -> bool:
