@@ -12,6 +12,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.quantity import Quantity, is_any_length, joined, lift, moved
+from mechsheet.quantities.refused import compared
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
 _MOST = 8  # unknowns of a fit
@@ -177,6 +178,7 @@ def in_order(graph: Graph, x: Quantity) -> None:
 def searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
     in_order(graph, a)
+    compared(v)
     return _rank(graph, a, v, strictly=side == "left")
 
 

@@ -70,24 +70,24 @@ class Graph(Lengths):
     of a workbook.
 
     ``looked`` are guards, what the Python code saw of quantities: where one of them no longer holds, what rests on it
-    is no longer what the worksheet has. ``labels`` are the names of steps inside library functions. ``line`` is the
-    line of the worksheet that is run.
+    is no longer what the worksheet has. ``labels`` are the names of steps inside library functions.
     """
 
     def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
         super().__init__()
-        self.thin = thin
+        self.thin, self.bodies = thin, bodies
         self.untold: list[str] = []  # why the present statement has numbers of now alone
-        self.bodies = bodies
         self.draws = draws  # drawings are recorded too
         self.lists = lists  # those among the inputs may have any length
         self.listed = frozenset[int]()  # how many rows the tables have that list every so many
         self.positions = 0  # numbers of linspace before any were left out
-        self.line = 0
+        self.line = 0  # of the worksheet, which is run
         self.work = 0  # numbers computed since somebody set it to 0
         self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
+        self.refused = dict[Node, Node | None]()  # where Python has no error for one, see `refused`
+        self.sliders = set[Node]()  # their places
         self.whole = set[Node]()  # which are whole numbers to Python, of no decimals in a text
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}

@@ -24,6 +24,7 @@ from mechsheet.worksheet import numbers
 UFUNCS: dict[Any, Callable[..., "Quantity"]] = {}  # of quantities
 FUNCTIONS: dict[Any, Callable[..., Any]] = {}  # of the graph and whatever numpy's function takes
 REDUCTIONS: dict[Any, str] = {}  # kinds that the reduce and accumulate of a ufunc stand for
+NOTED: dict[Any, Callable[..., None]] = {}  # what else is noted wherever a ufunc is called
 METHODS = frozenset({
     "all", "any", "argmax", "argmin", "argsort", "clip", "copy", "cumprod", "cumsum", "diagonal", "dot",
     "max", "mean", "min", "nonzero", "prod", "ptp", "ravel", "repeat", "round", "searchsorted", "sort", "squeeze",
@@ -327,6 +328,8 @@ class Quantity(NDArrayOperatorsMixin):
         if ufunc.signature or ufunc.nout > 1:
             return operation(*operands)
         self.graph.go_together(*(part for x in operands for part in x.parts))
+        if ufunc in NOTED:
+            NOTED[ufunc](*operands)
         key = ufunc, *[(x.re, x.im) for x in operands]
         known = self.graph.called.get(key)
         if known is None:

@@ -10,6 +10,7 @@ from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
+from mechsheet.quantities.refused import refused
 
 _OF_NONE: dict[str, float] = {
     "sum": 0, "nansum": 0, "max": -inf, "min": inf, "nanmax": nan, "nanmin": nan, "any": False, "all": True,
@@ -98,7 +99,7 @@ class Selected(Quantity):
         hit = self.holds & (number == wanted)
         if not (exists := hit.reduced("any")).value and not self.graph.supposed:
             raise IndexError(f"no element {key} of {self.extent[0]}")
-        one: Quantity = choice(self.graph, exists, self.of[np.argmax(hit)], nan)
+        one: Quantity = refused(choice(self.graph, exists, self.of[np.argmax(hit)], nan))
         return one
 
     def _numbered(self) -> Any:
@@ -145,7 +146,7 @@ class Selected(Quantity):
         some = self.holds.reduced("any")
         if not some.value and not self.graph.supposed:
             raise ValueError(f"no element to take the {kind} of")
-        known: Quantity = choice(self.graph, some, result, nan)
+        known: Quantity = refused(choice(self.graph, some, result, nan))
         return known
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import lift
+from mechsheet.quantities.refused import refused
 from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
 
 Pair = tuple[Any, Callable[..., Any]]  # whether an element is kept, and what gives its value
@@ -69,7 +70,7 @@ def _first(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
         result = value if holds is True else part_of(holds, value, result)
         if result is None:
             return None
-    return result
+    return result if otherwise else refused(result)
 
 
 def _last(kept: Iterable[tuple[Any, Any]], otherwise: tuple[Any, ...]) -> Any:
@@ -86,7 +87,7 @@ def _least(fold: Callable[[Any, Any], Any]) -> Callable[..., Any]:
             some = some | holds
         if otherwise:
             return where(graph, some, result, otherwise[0])
-        return result if some.value or graph.supposed else None
+        return refused(result) if some.value or graph.supposed else None
 
     return function
 
@@ -103,7 +104,7 @@ def _least_by(wins: Callable[[Any, Any], Any]) -> Callable[..., Any]:
             taken = holds & (~some | wins(own, best))
             result, best = part_of(taken, value, result), where(current.get(), taken, own, best)
             some = some | holds
-        return result if some.value or current.get().supposed else None
+        return refused(result) if some.value or current.get().supposed else None
 
     return function
 

@@ -15,6 +15,7 @@ from mechsheet.quantities.arithmetic import trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
+from mechsheet.quantities.refused import compared, pointed, refused
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
@@ -63,6 +64,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
     condition = as_condition(condition)
     if not is_condition(condition):
         return (x if condition else y)(*given, **named)
+    compared(condition)
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
     own = next((f.__globals__ for f in (now, later) if isinstance(f, FunctionType)), {})
     before = Memory([*_reached(now), *_reached(later), *given, *named.values()], own)
@@ -104,7 +106,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return x
     if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
-    x, y = _bound(x, y), _bound(y, x)
+    if x is UNBOUND or y is UNBOUND:
+        return refused(merged(condition, _bound(x, y), _bound(y, x)))
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
@@ -201,11 +204,11 @@ def element(container: Any, key: Any) -> Any:
             raise KeyError(key.now)
         return _supposed(_of_text, container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
-        return lift(current.get(), container)[key]
+        return _pointed(lift(current.get(), container), key)
     if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole | Texts | Listed):
-        return container[key]
+        return _pointed(container, key)
     if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
-        return lift(key.graph, container)[key]
+        return _pointed(lift(key.graph, container), key)
     values = container if isinstance(container, dict) else dict(enumerate(container))
     row = None
     if key.single and isinstance(container, list | tuple):  # whose last element is that of -1
@@ -214,10 +217,10 @@ def element(container: Any, key: Any) -> Any:
         if not any(key.value == known for known in values):
             raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
         if all(isinstance(value, NUMBERS) for value in values.values()):
-            return _at_key(values, key, np.nan)
+            return refused(_at_key(values, key, np.nan))
         row = _row_at(values, key)
     if row is not None:
-        return row
+        return refused(row)
     seen = key.seen()
     if seen.size != 1:
         return container[seen]
@@ -253,6 +256,13 @@ def _of_text(container: dict[Any, Any], key: Written) -> Any:
             ways = (_of_text(container, way) if way.parts else UNBOUND for way in (then, otherwise))
             return _part_of(holds, *ways)
     return container.get(str(key), UNBOUND)
+
+
+def _pointed(container: Any, key: Any) -> Any:
+    """``container[key]``, which Python refuses where a single place is none; of many, only some may be looked at."""
+    places = [k for k in (key if isinstance(key, tuple) else [key]) if isinstance(k, Quantity)]
+    found = container[key]
+    return pointed(found, container) if places and all(k.single for k in places) else found
 
 
 def _at_key(values: dict[Any, Any], key: Quantity, otherwise: Any) -> Any:
@@ -356,7 +366,7 @@ def placed(values: Any, value: Any) -> Any:
     some = hit.reduced("any")
     if not some.value:
         raise ValueError("it is not in the list")
-    place: Quantity = where(current.get(), some, np.argmax(hit), np.nan)
+    place: Quantity = refused(where(current.get(), some, np.argmax(hit), np.nan))
     return place
 
 

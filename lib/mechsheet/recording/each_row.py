@@ -12,6 +12,7 @@ from mechsheet.quantities.array_rules import SORTED
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.numpy_rules import as_many
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, owner
+from mechsheet.quantities.refused import pointed, refused
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.ufunc_rules import finite
@@ -143,7 +144,7 @@ def placed(values: Any, value: Any) -> Any:
     hit: Quantity = column == value
     if not (some := hit.reduced("any")).value:
         return list(values).index(value)
-    return where(column.graph, some, np.argmax(hit), np.nan)
+    return refused(where(column.graph, some, np.argmax(hit), np.nan))
 
 
 def _all(parts: Any, *sources: Any) -> "EachRow":
@@ -250,7 +251,7 @@ class EachRow(Sifted, Listed):
         if not (some.value or given or graph.supposed):
             return None
         least = Selected(self.parts, self.holds).filled(kind).reduced(kind)
-        return where(graph, some, least, *(given or (np.nan,)))
+        return where(graph, some, least, *given) if given else refused(where(graph, some, least, np.nan))
 
     @property
     def some(self) -> Quantity:
@@ -265,7 +266,7 @@ class EachRow(Sifted, Listed):
         """The element of a row, where there is one; None where there is none now."""
         if not exists.value and not current.get().supposed:
             return None
-        return self.parts[where(current.get(), exists, row, np.nan)]
+        return pointed(self.parts[where(current.get(), exists, row, np.nan)], self.parts)
 
     def _first(self, number: Any, *otherwise: Any) -> Any:
         """The element of that number among those that are kept."""

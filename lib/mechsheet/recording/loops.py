@@ -16,6 +16,7 @@ from mechsheet.quantities.arithmetic import imaginary, is_whole
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.node import Loop, Node, free_of
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
+from mechsheet.quantities.refused import turning
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
 from mechsheet.recording.in_place import of_now
 
@@ -103,6 +104,7 @@ def over_all(kind: str, f: Callable[[Any], Any], turns: Turns) -> Any:
 _PUT: dict[str, tuple[Callable[[Any, Any], Any], int]] = {"sum": (operator.add, 0), "prod": (operator.mul, 1)}
 
 
+@turning()
 def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
     """The same. Where a quantity decides about the end, readers repeat the turns for the inputs that they have."""
     if isinstance(items, Turns):
@@ -131,6 +133,7 @@ def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> 
     return repeated or state
 
 
+@turning()
 def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any, ...]) -> Any:
     """What a loop gives of which the inputs say how many turns it takes at most; nothing changes where that is none."""
     graph, some = turns.count.graph, turns.count > 0

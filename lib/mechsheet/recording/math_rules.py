@@ -12,6 +12,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import has_quantity, lift
+from mechsheet.quantities.refused import refused
 
 _SAME = (
     "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
@@ -26,6 +27,21 @@ STATISTICS: dict[str, tuple[Any, dict[str, int]]] = {
     "mean": (np.mean, {}), "fmean": (np.mean, {}), "median": (np.median, {}), "pstdev": (np.std, {}),
     "pvariance": (np.var, {}), "stdev": (np.std, {"ddof": 1}), "variance": (np.var, {"ddof": 1}),
 }  # fmt: skip
+_REFUSING = (
+    "sqrt",
+    "log",
+    "log10",
+    "log2",
+    "log1p",
+    "asin",
+    "acos",
+    "acosh",
+    "atanh",
+    "pow",
+    "fmod",
+    "factorial",
+    "isqrt",
+)
 _MOST = 170  # whose factorial is a float
 _DIVISIONS = 24  # of Euclid's algorithm: they end for any two numbers up to 75 024
 
@@ -113,6 +129,11 @@ def _complex(f: Callable[..., Any]) -> Callable[..., Any]:
     return lambda z: f(z + 0j)
 
 
+def _refusing(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that has no number of some arguments, for which the module math has an error."""
+    return lambda *x: refused(f(*x)) if has_quantity(x) else f(*x)
+
+
 MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
 MATH |= {math.isqrt: _whole(lambda x: np.floor(np.sqrt(x)))}
 MATH |= {math.prod: _product, math.remainder: _remainder, math.factorial: _factorial}
@@ -120,4 +141,5 @@ MATH |= {math.perm: _permutations, math.comb: _combinations}
 MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of any number of coordinates, to any base
 MATH |= {math.gcd: _divisor, math.lcm: _multiple, cmath.phase: np.angle}
 MATH |= {cmath.rect: lambda r, phi: r * np.exp(1j * phi), cmath.polar: lambda z: (np.abs(z), np.angle(z))}
+MATH |= {f: _refusing(MATH[f]) for f in (getattr(math, name) for name in _REFUSING)}
 MATH |= {getattr(cmath, f.__name__): _complex(f) for f in (np.exp, np.sqrt, np.log, np.sin, np.cos)}

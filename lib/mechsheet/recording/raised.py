@@ -11,6 +11,7 @@ from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, quantities
+from mechsheet.quantities.refused import on_ways
 
 _LIBRARY = str(Path(__file__).parents[1])
 
@@ -38,9 +39,7 @@ def on_way(condition: Quantity, holds: bool, way: Callable[..., Any], *given: An
 
 def only(condition: Quantity, holds: bool) -> None:
     """Note that there is something only where a condition holds, or does not, of the ways that are gone to it."""
-    there = _where(condition, holds)
-    for way in condition.graph.ways:
-        there = there | _where(way, False)
+    there = on_ways(_where(condition, holds))
     if not there.value:
         raise NotRecorded("it raises an error")
     condition.graph.see(there.re)

@@ -175,6 +175,7 @@ def drawings(shown: Any) -> Iterator[Drawing]:
 def slid(recording: Recording, name: str, made: Slider, own: Slider) -> Slider:
     """A slider whose position is an input of the recording, and its end an argument where that rests on others."""
     leaf = recording.inputs[SLIDER + name] = recording.graph.leaf("input", SLIDER + name, own.value)
+    recording.graph.sliders.add(leaf)
     position: Any = Quantity(recording.graph, leaf)
     if isinstance(made.stop, Quantity):
         recording.arguments[f"slider {name} stop"] = made.stop.re

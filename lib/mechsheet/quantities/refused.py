@@ -1,0 +1,122 @@
+"""What Python has an error for, of some inputs: a comparison of it goes neither way there, where one of NaN would."""
+
+import sys
+from collections.abc import Container, Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import reduce
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mechsheet.quantities.arithmetic import elementwise
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import NOTED, Quantity, quantities
+
+_LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
+_WHY = "it compares a number that there is not for these inputs"
+_unnoted = ContextVar("_unnoted", default=False)
+
+
+@contextmanager
+def turning() -> Iterator[None]:
+    """A loop takes other turns for other inputs: nothing is noted of what one of them compares now."""
+    token = _unnoted.set(True)
+    try:
+        yield
+    finally:
+        _unnoted.reset(token)
+
+
+def refused(value: Any) -> Any:
+    """Numbers for which Python has an error where they are none; of many together nobody knows which it computes."""
+    for each in _drawn(value):
+        for part in each.parts if not each.ndim else ():
+            _note(each.graph, part, each.graph.fold("finite", part))
+    return value
+
+
+def pointed(value: Any, container: Any) -> Any:
+    """What computed places in a container point at, for which Python has an error where there are none."""
+    own = {part for each in _drawn(container) for part in each.parts}
+    for each in _drawn(value):
+        for part in each.parts:
+            _note_places(each.graph, part, own)
+    return value
+
+
+def _drawn(value: Any) -> Iterator[Quantity]:
+    """Quantities of a recording for pages."""
+    return (each for each in quantities(value) if each.graph.draws)
+
+
+def _note_places(graph: Graph, node: Node, own: Container[Node]) -> None:
+    """Those of the source first, on which the others rest."""
+    if node.op in ("at", "take") and node not in own:
+        source = node.args[0]
+        _note_places(graph, source, own)
+        if node.op == "at":
+            place = Quantity(graph, node.args[1])
+            there: Any = (place >= 0) & (place < Quantity(graph, source).count())
+            _note(graph, node, there.reduced("all").re)
+
+
+def _note(graph: Graph, node: Node, exists: Node) -> None:
+    if node not in graph.always:
+        under = [_exists(graph, operand) for operand in node.operands]
+        graph.refused[node] = _all(graph, [exists, *under])
+
+
+def compared(*operands: Quantity) -> None:
+    """Note that Python compares what it may have an error for; the cells of a workbook have one themselves."""
+    graph = operands[0].graph
+    if not graph.draws or _unnoted.get():
+        return
+    exist = [_exists(graph, part) for x in operands for part in x.parts]
+    # Of each row ways are supposed too, of which nobody knows here when they are gone.
+    if any(exist) and graph.supposed == sum(not way.value for way in graph.ways):
+        for each in filter(None, exist):
+            holds = on_ways(Quantity(graph, each)).re
+            if graph.sliders.isdisjoint(bottom_up([holds], ())):  # which go where the worksheet lets them
+                graph.see(holds, why=_WHY)
+
+
+def on_ways(holds: Quantity) -> Any:
+    """Whether a condition holds, or the ways that are recorded now are not gone."""
+    return reduce(lambda held, way: held | elementwise("not")(way), holds.graph.ways, holds)
+
+
+def _exists(graph: Graph, node: Node) -> Node | None:
+    """The condition under which Python has a number, where it may have an error for it."""
+    known = graph.refused
+    for each in bottom_up([node], known):
+        if each.value.dtype == bool:  # which compares, and was noted
+            known[each] = None
+        elif each.op == "where" and not each.args[0].shape:
+            holds, *ways = each.args
+            then, otherwise = (known[way] or graph.constant(True) for way in ways)
+            known[each] = graph.fold("where", holds, then, otherwise) if any(known[w] for w in ways) else None
+        else:
+            known[each] = _all(graph, [known[operand] for operand in each.operands])
+    return known[node]
+
+
+def _all(graph: Graph, exist: Iterable[Node | None]) -> Node | None:
+    """Whether all conditions hold, each of them once."""
+    each = dict.fromkeys(filter(None, exist))
+    return reduce(lambda a, b: graph.fold("and", a, b), each) if each else None
+
+
+def _compared_there(*operands: Quantity) -> None:
+    """The same in the code of a worksheet: what the library compares itself says nothing of an error."""
+    frame: Any = sys._getframe(2)
+    while frame.f_code.co_filename.startswith(_NUMPY):  # of its operators
+        frame = frame.f_back
+    if not frame.f_code.co_filename.startswith(_LIBRARY):
+        compared(*operands)
+
+
+_COMPARISONS = (np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal)
+NOTED.update(dict.fromkeys(_COMPARISONS, _compared_there))

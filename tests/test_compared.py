@@ -1,0 +1,101 @@
+"""Numbers that there are not for other inputs: where Python has an error, no comparison of one goes either way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from openpyxl import load_workbook
+from test_counted_turns import recorded
+from test_random_statements import OTHER, by_page, by_reader, plain, sheet_of
+from typed_workbook import typed
+
+from mechsheet.html import javascript
+from mechsheet.run import report
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+W = "w = np.array([1.0, 6.0, 7.0, 2.0])"
+# For each a number that some of the other inputs have not, in a condition of one.
+NOT_THERE = {
+    "an element of an array": [W, "c = w[g.k] > 5"],
+    "an element of a list of inputs": ["c = g.F[g.k] > 2"],
+    "an element of a matrix": ["m = np.array([[1.0, g.x], [3.0, 4.0], [5.0, 6.0]])", "c = m[g.k, 0] > 2"],
+    "a row of a matrix": ["m = np.array([[1.0, g.x], [3.0, 4.0], [5.0, 6.0]])", "r = m[g.k]", "c = r[1] > g.u"],
+    "what is made of an element": [W, "v = 2.0 * w[g.k] + g.x", "c = v > 5"],
+    "the truth of an element": [W, "c = w[g.k] and g.on"],
+    "an element of rows": ["L = [(1.0, 2.0), (3.0, 4.0), (5.0, 6.0)]", "c = L[g.k][1] > 3"],
+    "a field of an element": ['L = [{"d": 1.0}, {"d": 3.0}, {"d": 5.0}]', 'c = L[g.k]["d"] > 2'],
+    "a key of a dictionary": ["d = {0: 1.5, 2: 2.5, 4: 3.0}", "c = d[g.k] > 2"],
+    "the least of those above": ["s = min(z for z in SIZES if z > g.u * 3)", "c = s > 4"],
+    "the first of those above": ["s = next(z for z in SIZES if z > g.u * 3)", "c = s > 4"],
+    "the size behind a searched place": ["s = SIZES[np.searchsorted(SIZES, g.u * 3)]", "c = s > 4"],
+    "the greatest of a list": ["c = max([q for q in g.F if q > g.u * 1.9]) > 2.7"],
+    "the place in a list": ["i = [1.0, 2.0, 3.0, 4.0].index(float(g.k))", "c = i > 1"],
+    "a name of one way": ["if g.k > 0:\n    t = g.x", "c = t > 0.5"],
+    "a root": ["c = math.sqrt(g.x) > 0.5"],
+    "a logarithm": ["c = math.log(g.x) < 0.5"],
+    "an angle": ["c = math.asin(g.x) > 0.5"],
+    "a root beside what holds": ["c = math.sqrt(g.x) > 0.5 or g.on"],
+    "a root among sizes": ["c = sum(z > math.sqrt(g.x) for z in SIZES) > 3"],
+    "the place of a root": ["c = np.searchsorted(SIZES, math.sqrt(g.x)) > 0"],
+}
+# The same where Python asks first, or has a number in its place: there is one for all inputs.
+ASKED = {
+    "beside a condition": [W, "c = g.k < 4 and w[g.k] > 5"],
+    "beside one that fails": [W, "c = g.k >= 4 or w[g.k] > 5"],
+    "on a way": [W, "if g.k < 4:\n    c = w[g.k] > 5\nelse:\n    c = g.on"],
+    "behind another way": [W, "if g.k >= 4:\n    c = g.on\nelif w[g.k] > 5:\n    c = True\nelse:\n    c = False"],
+    "in a function": ["def f(k):\n    if k > 3:\n        return False\n    return SIZES[k] > 2", "c = f(g.k)"],
+    "chosen before": [W, "v = w[g.k] if g.k < 4 else 0.5", "c = v > 2"],
+    "a logarithm beside a condition": ["c = 0 < g.x and math.log(g.x) < 0.5"],
+    "a key with another number": ["c = {0: 1.5, 2: 2.5}.get(g.k, 0.0) > 2"],
+    "the first, or another number": ["c = next((z for z in SIZES if z > g.u * 3), 0.0) > 4"],
+    "a key of each option": ["c = AREA[g.mode] > 2"],
+    "an element that is no number": ["m = np.array([1.0, np.nan, 5.0, g.x, 2.0])", "c = m[g.k] > 2"],
+    "numpy's root": ["c = np.sqrt(g.x) > 0.5"],
+}
+
+
+@pytest.mark.parametrize("lines", [*NOT_THERE.values(), *ASKED.values()], ids=[*NOT_THERE, *ASKED])
+def test_a_page_goes_no_way_where_python_has_an_error(lines: list[str], blank: Page, tmp_path: Path) -> None:
+    """It went the other way; and a number that there is in another way is shown."""
+    sheet = sheet_of(tmp_path, [*lines, "y_0 = 3.0 if c else g.u", "y_1 = 3.0 if not c else g.u"])
+    told = plain(sheet, ["y_0", "y_1"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    nodes = {n: recording.tables[f"y_{n}"][0].re for n in (0, 1)}
+    looked = {n: [guard.holds for guard in recording.looked[f"zy_{n}"]] for n in nodes}
+    readers = by_reader(recording, nodes, looked, lists=True), by_page(blank, sheet, recording, nodes, looked)
+    for found in readers:
+        for given, shown, own in zip(OTHER, found, told, strict=True):
+            np.testing.assert_allclose([shown.get(n, np.nan) for n in nodes], own, err_msg=str(given))
+
+
+def test_why_there_is_none_is_told(tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path, [*NOT_THERE["an element of an array"], "y_0 = 3.0 if c else g.u"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    (guard,) = recording.guards.values()
+    assert javascript.otherwise(guard).endswith("it compares a number that there is not for these inputs")
+
+
+def test_cells_have_an_error_themselves(recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path) -> None:
+    """So nothing is noted for them, which would stand in every formula."""
+    paths = list[Path]()
+    for n, lines in enumerate(NOT_THERE.values()):
+        folder = tmp_path / str(n)
+        folder.mkdir()
+        sheet = sheet_of(folder, [*lines, "y_0 = 3.0 if c else g.u"])
+        (given,) = [each for each, (own,) in zip(OTHER, plain(sheet, ["y_0"]), strict=True) if np.isnan(own)][:1]
+        names = sheet.run(sheet.results, {"g": sheet.inputs()})
+        path = folder / "own.xlsx"
+        path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
+        rows = load_workbook(path)["Inputs"].iter_rows(min_row=3, values_only=True)
+        at = {symbol: f"B{row}" for row, (symbol, *_) in enumerate(rows, 3)}
+        contents = {("Inputs", at[name]): value for name, value in given.items() if name in at}
+        paths.append(typed(path, contents, tmp_path / f"{n}.xlsx"))
+    shown = {name: book["y_0 Alone"]["A5"].value for name, book in zip(NOT_THERE, recalculated_all(paths), strict=True)}
+    assert {name: value for name, value in shown.items() if not str(value).startswith("#")} == {}
