@@ -37,7 +37,7 @@ mpmath.mp.dps = 200  # of what the tests compute exactly themselves, no less tha
 # What a program has compiled is kept, as for any user: the tests start hundreds.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
-gc.set_threshold(50_000, 20, 20)  # what many tests hold is not waste: to look through it takes a sixth of their time
+gc.set_threshold(200_000, 20, 20)  # what many tests hold is not waste: to look through it takes a sixth of their time
 WITHIN = 300.0  # seconds for whatever is waited for: on a busy machine it comes late
 
 # Random tests take the same examples in every run, and no time is too long for one: a busy machine is no error.

@@ -40,6 +40,10 @@ NOT_THERE = {
     "a root": ["c = math.sqrt(g.x) > 0.5"],
     "a logarithm": ["c = math.log(g.x) < 0.5"],
     "an angle": ["c = math.asin(g.x) > 0.5"],
+    "a quotient": ["c = 1 / g.x > 0.5"],
+    "a quotient of differences": ["c = g.u / (g.x + 2.5) > 0.5"],
+    "a power": ["c = g.x ** -0.5 > 0.5"],
+    "what a division leaves": ["c = g.n % g.k > 0"],
     "a root beside what holds": ["c = math.sqrt(g.x) > 0.5 or g.on"],
     "a root among sizes": ["c = sum(z > math.sqrt(g.x) for z in SIZES) > 3"],
     "the place of a root": ["c = np.searchsorted(SIZES, math.sqrt(g.x)) > 0"],
@@ -57,6 +61,8 @@ ASKED = {
     "the first, or another number": ["c = next((z for z in SIZES if z > g.u * 3), 0.0) > 4"],
     "a key of each option": ["c = AREA[g.mode] > 2"],
     "an element that is no number": ["m = np.array([1.0, np.nan, 5.0, g.x, 2.0])", "c = m[g.k] > 2"],
+    "a quotient beside a condition": ["c = g.x != 0 and 1 / g.x > 0.5"],
+    "numpy's quotient": ["c = np.sin(g.u) / g.x > 0.5"],
     "numpy's root": ["c = np.sqrt(g.x) > 0.5"],
 }
 

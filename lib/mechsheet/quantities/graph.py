@@ -77,8 +77,7 @@ class Graph(Lengths):
         super().__init__()
         self.thin, self.bodies = thin, bodies
         self.untold: list[str] = []  # why the present statement has numbers of now alone
-        self.draws = draws  # drawings are recorded too
-        self.lists = lists  # those among the inputs may have any length
+        self.draws, self.lists = draws, lists  # drawings are recorded too; lists among the inputs have any length
         self.listed = frozenset[int]()  # how many rows the tables have that list every so many
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0  # of the worksheet, which is run
@@ -87,6 +86,7 @@ class Graph(Lengths):
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
         self.refused = dict[Node, Node | None]()  # where Python has no error for one, see `refused`
+        self.pythons = dict[Node, bool]()  # whether one is Python's own, which divides none by zero
         self.sliders = set[Node]()  # their places
         self.whole = set[Node]()  # which are whole numbers to Python, of no decimals in a text
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike

@@ -12,10 +12,12 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.node import LEAVES, Node, bottom_up
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
+_DIVIDING = ("div", "pow", "mod")
+_ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs")
 _WHY = "it compares a number that there is not for these inputs"
 _unnoted = ContextVar("_unnoted", default=False)
 
@@ -92,6 +94,7 @@ def _exists(graph: Graph, node: Node) -> Node | None:
     """The condition under which Python has a number, where it may have an error for it."""
     known = graph.refused
     for each in bottom_up([node], known):
+        own = graph.fold("finite", each) if each.op in _DIVIDING and _is_pythons(graph, each) else None
         if each.value.dtype == bool:  # which compares, and was noted
             known[each] = None
         elif each.op == "where" and not each.args[0].shape:
@@ -99,7 +102,16 @@ def _exists(graph: Graph, node: Node) -> Node | None:
             then, otherwise = (known[way] or graph.constant(True) for way in ways)
             known[each] = graph.fold("where", holds, then, otherwise) if any(known[w] for w in ways) else None
         else:
-            known[each] = _all(graph, [known[operand] for operand in each.operands])
+            known[each] = _all(graph, [own, *(known[operand] for operand in each.operands)])
+    return known[node]
+
+
+def _is_pythons(graph: Graph, node: Node) -> bool:
+    """Whether Python's own arithmetic makes a number of inputs: numpy's gives infinity for 1 / 0, Python an error."""
+    known = graph.pythons
+    for each in bottom_up([node], known):
+        made = each.op in _ARITHMETIC and all(known[operand] for operand in each.operands)
+        known[each] = not each.shape and (made or each.op in LEAVES)
     return known[node]
 
 
