@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from conftest import examples
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from openpyxl import load_workbook
 from test_counted_turns import recorded
 from test_random_statements import OTHER, by_page, by_reader, plain, sheet_of
@@ -77,8 +83,46 @@ def test_a_page_goes_no_way_where_python_has_an_error(lines: list[str], blank: P
     looked = {n: [guard.holds for guard in recording.looked[f"zy_{n}"]] for n in nodes}
     readers = by_reader(recording, nodes, looked, lists=True), by_page(blank, sheet, recording, nodes, looked)
     for found in readers:
-        for given, shown, own in zip(OTHER, found, told, strict=True):
-            np.testing.assert_allclose([shown.get(n, np.nan) for n in nodes], own, err_msg=str(given))
+        for each, shown, own in zip(OTHER, found, told, strict=True):
+            np.testing.assert_allclose([shown.get(n, np.nan) for n in nodes], own, err_msg=str(each))
+
+
+# What stands for what: $f a number, which may not exist, $i a place, $b a condition.
+FORMS = {
+    "f": [
+        "g.x", "g.u", "0.5", "2.0", "SIZES[$i]", "g.F[$i]", "math.sqrt($f)", "math.log($f)", "(1 / $f)", "($f - $f)",
+        "($f * $f)", "($f if $b else $f)", "{0: 1.5, 2: 2.5, 4: 3.0}[g.k]", "next(z for z in SIZES if z > $f)",
+        "min(z for z in g.F if z > $f)", "max($f, $f)", "math.asin($f)", "np.sqrt($f)", "sum(z > $f for z in SIZES)",
+    ],
+    "i": ["g.k", "g.k + 2", "g.n", "1", "-1", "len(g.F) - g.k"],
+    "b": ["$f > $f", "$f <= $f < $f", "($b and $b)", "($b or $b)", "(not $b)", "g.on", "any(z > $f for z in g.F)"],
+}  # fmt: skip
+SIMPLE = {"f": 6, "i": 4, "b": 1}  # of each kind how many forms lead to an end
+
+
+def condition(random: Random, form: str = "$b", deep: int = 0) -> str:
+    def part(found: re.Match[str]) -> str:
+        forms = FORMS[found[1]]
+        return condition(random, random.choice(forms[: SIMPLE[found[1]]] if deep > 2 else forms), deep + 1)
+
+    return re.sub(r"\$(\w)", part, form)
+
+
+@given(st.integers(0, 2**32 - 1))
+@examples(20)
+def test_conditions_written_at_random_go_no_way_where_python_has_an_error(blank: Page, seed: int) -> None:
+    line = f"y_0 = 3.0 if {condition(Random(seed))} else g.u"
+    with TemporaryDirectory() as folder:
+        sheet = sheet_of(Path(folder), [line])
+        told = [own for (own,) in plain(sheet, ["y_0"])]
+        assume(np.isfinite(told[0]))
+        recording = recorded(sheet, every=1, draws=True, lists=True)
+        (column,) = recording.tables["y_0"]
+        assume(column is not None)
+        found = by_page(blank, sheet, recording, {0: column.re}, {0: [g.holds for g in recording.looked["zy_0"]]})
+    for each, shown, own in zip(OTHER, found, told, strict=True):
+        number = shown.get(0, np.nan)
+        assert not np.isfinite(number) or number == own, (line, each, number, own)
 
 
 def test_why_there_is_none_is_told(tmp_path: Path) -> None:
@@ -90,18 +134,25 @@ def test_why_there_is_none_is_told(tmp_path: Path) -> None:
 
 def test_cells_have_an_error_themselves(recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path) -> None:
     """So nothing is noted for them, which would stand in every formula."""
-    paths = list[Path]()
-    for n, lines in enumerate(NOT_THERE.values()):
+    lines, every = list[str](), list[list[float]]()
+    for n, own in enumerate(NOT_THERE.values()):
         folder = tmp_path / str(n)
         folder.mkdir()
-        sheet = sheet_of(folder, [*lines, "y_0 = 3.0 if c else g.u"])
-        (given,) = [each for each, (own,) in zip(OTHER, plain(sheet, ["y_0"]), strict=True) if np.isnan(own)][:1]
-        names = sheet.run(sheet.results, {"g": sheet.inputs()})
-        path = folder / "own.xlsx"
-        path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
-        rows = load_workbook(path)["Inputs"].iter_rows(min_row=3, values_only=True)
-        at = {symbol: f"B{row}" for row, (symbol, *_) in enumerate(rows, 3)}
-        contents = {("Inputs", at[name]): value for name, value in given.items() if name in at}
-        paths.append(typed(path, contents, tmp_path / f"{n}.xlsx"))
-    shown = {name: book["y_0 Alone"]["A5"].value for name, book in zip(NOT_THERE, recalculated_all(paths), strict=True)}
-    assert {name: value for name, value in shown.items() if not str(value).startswith("#")} == {}
+        every.append([x for (x,) in plain(sheet_of(folder, [*own, "y_0 = 3.0 if c else g.u"]), ["y_0"])])
+        lines += [*own, f"y_{n} = 3.0 if c else g.u"]
+    sheet = sheet_of(tmp_path, lines)
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(
+        report.workbook("", {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}, {})
+    )
+    rows = load_workbook(path)["Inputs"].iter_rows(min_row=3, values_only=True)
+    at = {symbol: ("Inputs", f"B{row}") for row, (symbol, *_) in enumerate(rows, 3)}
+    typed_in = [k for k, each in enumerate(OTHER) if each.keys() <= {"k", "x", "u", "mode", "on"}]
+    paths = [typed(path, {at[name]: x for name, x in OTHER[k].items()}, tmp_path / f"{k}.xlsx") for k in typed_in]
+    refused = set[str]()
+    for k, book in zip(typed_in, recalculated_all(paths), strict=True):
+        for n, (name, own) in enumerate(zip(NOT_THERE, every, strict=True)):
+            shown = book[f"y_{n} Alone"]["A5"].value
+            assert str(shown).startswith("#") or shown == own[k], (name, OTHER[k], shown)
+            refused |= {name} if np.isnan(own[k]) else set()
+    assert refused == {*NOT_THERE}

@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.node import LEAVES, Node, bottom_up
+from mechsheet.quantities.node import LEAVES, Node, bottom_up, free_of
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
@@ -20,6 +20,7 @@ _DIVIDING = ("div", "pow", "mod")
 _ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs")
 _WHY = "it compares a number that there is not for these inputs"
 _unnoted = ContextVar("_unnoted", default=False)
+_rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
 
 
 @contextmanager
@@ -30,6 +31,19 @@ def turning() -> Iterator[None]:
         yield
     finally:
         _unnoted.reset(token)
+
+
+@contextmanager
+def each_row(graph: Graph, rows: Iterable[Node]) -> Iterator[None]:
+    """What is computed of each of some rows compares once for all of them what is no row's own, and nothing else."""
+    token = _rows.set(_rows.get() + 1)
+    try:
+        yield
+    finally:
+        _rows.reset(token)
+        own = [holds for holds, guard in graph.looked.items() if guard.why == _WHY and not free_of(rows, [holds])]
+        for holds in own:
+            del graph.looked[holds]
 
 
 def refused(value: Any) -> Any:
@@ -77,8 +91,8 @@ def compared(*operands: Quantity) -> None:
     if not graph.draws or _unnoted.get():
         return
     exist = [_exists(graph, part) for x in operands for part in x.parts]
-    # Of each row ways are supposed too, of which nobody knows here when they are gone.
-    if any(exist) and graph.supposed == sum(not way.value for way in graph.ways):
+    # Of other ways that are supposed nobody knows here when they are gone.
+    if any(exist) and graph.supposed == _rows.get() + sum(not way.value for way in graph.ways):
         for each in filter(None, exist):
             holds = on_ways(Quantity(graph, each)).re
             if graph.sliders.isdisjoint(bottom_up([holds], ())):  # which go where the worksheet lets them

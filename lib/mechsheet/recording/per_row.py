@@ -9,6 +9,7 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up, free_of
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.refused import each_row
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import OneOf, Written
@@ -75,7 +76,8 @@ def _followed(f: Callable[..., Any], sources: tuple[Any, ...], made: Callable[..
     try:
         with graph.labelled({**graph.labels}):
             each = [_row(source, rows) for source in sources]
-            values = f(*each)
+            with each_row(graph, rows):
+                values = f(*each)
             if free_of(rows, graph.looked.keys() - looked.keys()):
                 return made(values, rows, [*zip(each, sources, strict=True)])
     except (Exception, NotRecorded):
