@@ -129,7 +129,7 @@ def test_why_there_is_none_is_told(tmp_path: Path) -> None:
     sheet = sheet_of(tmp_path, [*NOT_THERE["an element of an array"], "y_0 = 3.0 if c else g.u"])
     recording = recorded(sheet, every=1, draws=True, lists=True)
     (guard,) = recording.guards.values()
-    assert javascript.otherwise(guard).endswith("it compares a number that there is not for these inputs")
+    assert javascript.otherwise(guard).endswith("it compares a number that does not exist for these inputs")
 
 
 def test_cells_have_an_error_themselves(recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path) -> None:

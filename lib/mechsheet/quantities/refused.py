@@ -18,7 +18,7 @@ from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
 _DIVIDING = ("div", "pow", "mod")
 _ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs")
-_WHY = "it compares a number that there is not for these inputs"
+_WHY = "it compares a number that does not exist for these inputs"
 _unnoted = ContextVar("_unnoted", default=False)
 _rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
 

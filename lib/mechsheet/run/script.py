@@ -19,6 +19,7 @@ from mechsheet.run.ending import is_over, warn, watch
 
 _END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
 _reporting = list[str]()  # the worksheet that is to be reported at the exit
+_SEARCHES = 50  # of those that are new, before older ones are looked through too
 _OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
 
@@ -78,7 +79,7 @@ def _report(names: Mapping[str, Any]) -> None:
 
 
 def _run(worksheet: str) -> None:
-    gc.set_threshold(_OBJECTS, *gc.get_threshold()[1:])
+    gc.set_threshold(_OBJECTS, _SEARCHES, _SEARCHES)
     from mechsheet.run import ask, report  # on use: an interruption while this loads is told as any other
     from mechsheet.worksheet.cells import load  # on use: as above
     from mechsheet.worksheet.verdict import listen  # on use: as above
