@@ -51,6 +51,8 @@ NOT_THERE = {
     "a power": ["c = g.x ** -0.5 > 0.5"],
     "what a division leaves": ["c = g.n % g.k > 0"],
     "a root beside what holds": ["c = math.sqrt(g.x) > 0.5 or g.on"],
+    "the greatest of some": [W, "i = np.argmax(np.array([0.5, w[g.k]]))", "c = i > 0"],
+    "the order of some": [W, "i = np.argsort(np.array([0.5, w[g.k]]))", "c = i[0] > 0"],
     "a root among sizes": ["c = sum(z > math.sqrt(g.x) for z in SIZES) > 3"],
     "the place of a root": ["c = np.searchsorted(SIZES, math.sqrt(g.x)) > 0"],
 }

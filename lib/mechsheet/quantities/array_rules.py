@@ -90,7 +90,8 @@ def is_ranked(x: Quantity) -> bool:
 
 def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
     """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
-    graph.chosen.append((copy(x := lift(graph, x)), axis, "argsort"))
+    compared(x := lift(graph, x))
+    graph.chosen.append((copy(x), axis, "argsort"))
     if is_ranked(x):
         number: Any = Quantity(graph, graph.rows(graph.length(x.re, -1)))
     else:

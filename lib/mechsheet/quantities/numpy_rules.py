@@ -43,6 +43,7 @@ from mechsheet.quantities.linear_rules import (
 )
 from mechsheet.quantities.operations import REDUCE_SO_FAR
 from mechsheet.quantities.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
+from mechsheet.quantities.refused import compared
 from mechsheet.quantities.selected import Selected, also_of_selected
 from mechsheet.quantities.statistics_rules import (
     average,
@@ -272,6 +273,7 @@ def _first(kind: str) -> Callable[..., Any]:
         if x.dtype == bool:
             return choice(graph, x, 1.0, 0.0).reduced(kind, axis, keepdims)
         every = x.compared(kind) if isinstance(x, Selected) and x.compares else copy(x)  # which is no other name of x
+        compared(x)
         graph.chosen.append((every, axis, kind))
         return x.reduced(kind, axis, keepdims)
 
