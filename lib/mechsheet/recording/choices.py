@@ -201,7 +201,7 @@ def element(container: Any, key: Any) -> Any:
         return _of_option(container, key, is_it)
     if isinstance(key, Written) and isinstance(container, dict):
         if key.now not in container:
-            raise KeyError(key.now)
+            return container[str(key)]  # some dictionaries give what is missing: Python looks which text it is
         return _supposed(_of_text, container, key)
     if isinstance(key, tuple) and isinstance(container, np.ndarray) and has_quantity(key):
         return _pointed(lift(current.get(), container), key)
@@ -215,7 +215,9 @@ def element(container: Any, key: Any) -> Any:
         key = where(key.graph, key < 0, key + len(container), key)
     if key.single and all(isinstance(known, NUMBERS) for known in values):
         if not any(key.value == known for known in values):
-            raise KeyError(key.value.item()) if isinstance(container, dict) else IndexError(f"no element {key.value}")
+            if isinstance(container, dict):
+                return container[key.seen().item()]  # as above
+            raise IndexError(f"no element {key.value}")
         if all(isinstance(value, NUMBERS) for value in values.values()):
             return refused(_at_key(values, key, np.nan))
         row = _row_at(values, key)

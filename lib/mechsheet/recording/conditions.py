@@ -55,7 +55,8 @@ def member(value: Any, several: Any) -> Any:
     single = isinstance(value, Written | Chosen) or (isinstance(value, Quantity) and value.single)
     if not single or not isinstance(several, dict | list | tuple | set | frozenset):
         return value in several
-    same = [value == each for each in several if isinstance(each, str | NUMBERS | Chosen)]
+    alike = NUMBERS | np.bool_ if isinstance(value, Quantity) else str | Written | NUMBERS | Chosen
+    same = [value == each for each in several if isinstance(each, alike)]
     if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
         return value in several
     return reduce(operator.or_, same, False)
