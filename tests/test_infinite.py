@@ -1,14 +1,21 @@
 """Infinite numbers on the way to finite ones: cells hold none, so they have the exported number there, or none."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from as_script import as_script
 from openpyxl import load_workbook
 from own_worksheet import written
+from test_counted_turns import recorded
+from test_random_statements import OTHER, by_page, by_reader, plain, sheet_of
 from test_recalculation import computed, disagreements, edit, lines_apart
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 SETUP = """import numpy as np
 from numpy import arctan, exp, isfinite, linspace, minimum, tan, where
@@ -30,6 +37,14 @@ beyond = where(th > 0.3, th, np.inf).min()  # [-] least beyond, from infinity
 after = np.nanmax(a)  # [-] greatest of what is limited
 table_1 = table("1", "All", th, a, b, c, d, e, p, q, turned)
 figure_1 = figure("1", "Limited", th, a)"""
+# The places of some numbers, where infinity stands for those that are out of the question.
+PLACES = [
+    "y_0 = np.argmin(np.where(g.F > g.u, g.F, np.inf)) * 1.0",
+    "y_0 = np.argmax(np.where(g.F > g.u, -g.F, -np.inf)) * 1.0",
+    "y_0 = g.F[np.argmin(np.where(g.F > 0.6 * g.u, np.abs(g.F - g.x), np.inf))]",
+    "y_0 = np.argsort(np.where(g.F > 0.1 * g.u, g.F, np.inf), kind='stable')[0] * 1.0",
+    "m = np.stack([g.F, np.where(g.F > g.u, g.F * g.x, np.inf)])\ny_0 = np.argmin(m, axis=1).sum() * 1.0",
+]
 LOST = {"a", "b", "c", "d", "p", "least"}
 
 
@@ -67,3 +82,17 @@ def test_cells_have_the_exported_number_or_none(
         assert bool(apart) == (change != {"z": 0.1}), "where nothing is infinite all else is followed"
         front = {row[0]: row[4] for row in there["Front"].iter_rows(values_only=True) if row[0] == "a"}
         assert ("no number in 1 of 6" in front["a"]) == (change != {"z": 0.1})
+
+
+@pytest.mark.parametrize("lines", PLACES)
+def test_a_page_has_the_place_of_a_number_among_infinite_ones(lines: str, blank: Page, tmp_path: Path) -> None:
+    """It was grey for all other inputs, as if the finite numbers could not be told apart."""
+    sheet = sheet_of(tmp_path, lines.split("\n"))
+    told = [own for (own,) in plain(sheet, ["y_0"])]
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    assert recording.gaps == []
+    nodes = {0: recording.tables["y_0"][0].re}
+    looked = {0: [guard.holds for guard in recording.looked["zy_0"]]}
+    readers = by_reader(recording, nodes, looked, lists=True), by_page(blank, sheet, recording, nodes, looked)
+    for found in readers:
+        assert [shown.get(0) for shown in found] == pytest.approx(told), OTHER

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
@@ -28,9 +29,12 @@ def decide(x: Quantity, axis: Any, kind: str) -> None:
     graph = x.graph
     along = axis if x.ndim > 1 else None
     low, high = (x.reduced(end, along) for end in ("min", "max"))
-    terms = Terms(graph).of(x, deep=graph.draws).reduced("max", along)
-    if np.isinf(terms.value).any() and not graph.draws:
-        raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
+    each = Terms(graph).of(x, deep=graph.draws)
+    if np.isinf(each.value).any():
+        if not graph.draws:
+            raise NotRecorded("an infinite number is among those compared, which no cell of a spreadsheet holds")
+        each = choice(graph, finite(x), each, 0.0)  # an infinite one has no rounding, and the others have their own
+    terms = each.reduced("max", along)
     nothing = (low == 0) & (high == 0)  # as a spreadsheet program has it where next to nothing is left
     rounding = (high - low <= numbers.ROUNDING * terms) & ((high > low) | nothing) & (terms > 0) & finite(terms)
     holds = (~rounding).reduced("all")
@@ -46,7 +50,8 @@ def _tied(kind: str, values: Values, axis: Any, rounding: Any) -> bool:
     order = np.sort(values, axis=axis)
     if axis is not None:
         order = np.moveaxis(order, axis, -1)
-    steps = np.diff(order, axis=-1)
+    with np.errstate(invalid="ignore"):  # between infinite numbers there is no step
+        steps = np.diff(order, axis=-1)
     first = {"argmax": steps[..., ::-1], "argmin": steps}.get(kind, steps)
     if kind != "argsort":  # behind those that are equal to the one that is taken
         first = np.take_along_axis(first, np.argmax(first > 0, axis=-1)[..., None], axis=-1) if first.size else first
