@@ -56,6 +56,18 @@ NOT_THERE = {
     "a root among sizes": ["c = sum(z > math.sqrt(g.x) for z in SIZES) > 3"],
     "the place of a root": ["c = np.searchsorted(SIZES, math.sqrt(g.x)) > 0"],
 }
+# For each fields that are not as long as each other, for some of the other inputs, which Python refuses.
+UNLIKE = {
+    "a comparison": "np.where(g.F > SIZES[:4], g.u, 1.0).sum()",
+    "a condition of all": "np.all(g.F == [2.5, -1.0, 3.0, 0.5]) * g.u",
+    "conditions": "np.sum((g.F > 0.6) & np.array([True, False, True, True])) * g.u",
+    "a choice": "np.where(np.array([1.0, 0.0, 0.0, 1.0]) > g.x, g.F, g.u).sum()",
+    "what is close": "np.isclose(g.F, [2.5, -1.0, 3.0, 0.5]).sum() * g.u",
+    "steps": "np.gradient(g.F, [0.0, 1.0, 2.0, 4.0]).max()",
+    "a table": "np.interp(g.u, np.arange(4.0), g.F)",
+    "equations": "np.linalg.solve(np.eye(4) * 2.0 + g.u**2, g.F)[0]",
+    "a product": "np.ones(g.n) @ np.arange(5.0) * g.u",
+}
 # The same where Python asks first, or has a number in its place: there is one for all inputs.
 ASKED = {
     "beside a condition": [W, "c = g.k < 4 and w[g.k] > 5"],
@@ -127,11 +139,32 @@ def test_conditions_written_at_random_go_no_way_where_python_has_an_error(blank:
         assert not np.isfinite(number) or number == own, (line, each, number, own)
 
 
+@pytest.mark.parametrize("expression", UNLIKE.values(), ids=UNLIKE)
+def test_a_page_has_no_number_where_lists_are_not_as_long_as_each_other(
+    expression: str, blank: Page, tmp_path: Path
+) -> None:
+    """A row that was put in was compared with nothing, and told to be smaller or left out."""
+    sheet = sheet_of(tmp_path, [f"y_0 = {expression}"])
+    told = plain(sheet, ["y_0"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    nodes = {0: recording.tables["y_0"][0].re}
+    looked = {0: [guard.holds for guard in recording.looked["zy_0"]]}
+    (found,) = [by_page(blank, sheet, recording, nodes, looked)]
+    np.testing.assert_allclose([shown.get(0, np.nan) for shown in found], np.ravel(told))
+
+
 def test_why_there_is_none_is_told(tmp_path: Path) -> None:
     sheet = sheet_of(tmp_path, [*NOT_THERE["an element of an array"], "y_0 = 3.0 if c else g.u"])
     recording = recorded(sheet, every=1, draws=True, lists=True)
     (guard,) = recording.guards.values()
     assert javascript.otherwise(guard).endswith("it compares a number that does not exist for these inputs")
+
+
+def test_that_lists_are_not_as_long_as_each_other_is_told(tmp_path: Path) -> None:
+    sheet = sheet_of(tmp_path, [f"y_0 = {UNLIKE['a comparison']}"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    told = {javascript.otherwise(guard).partition(": ")[2] for guard in recording.looked["zy_0"]}
+    assert told == {"what goes together here is not as long as each other for these inputs"}
 
 
 def test_cells_have_an_error_themselves(recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path) -> None:

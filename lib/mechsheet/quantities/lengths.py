@@ -10,6 +10,7 @@ from mechsheet.quantities.operations import ELEMENTWISE
 
 _T = TypeVar("_T")
 _Asking = Generator[tuple[Node, int], Any, _T]  # of something that needs lengths: of which quantities, along which axes
+_UNLIKE = "what goes together here is not as long as each other for these inputs"
 
 
 def _by_condition(length: Node) -> bool:
@@ -27,6 +28,7 @@ class Lengths(ABC):
     """The lengths of the axes of quantities, as quantities; ``fixed`` ones rest on constants alone."""
 
     filtered = False  # whether a condition tells how many rows something has
+    draws = False  # whether it is a page, in which lists are as long as they are typed
 
     def __init__(self) -> None:
         self.fixed = set[Node]()
@@ -46,27 +48,29 @@ class Lengths(ABC):
         """The length of a quantity along an axis that nothing else has."""
 
     @abstractmethod
-    def see(self, seen: Node) -> None:
+    def see(self, seen: Node, *, why: str = "") -> None:
         """Note that Python looks at a condition, which holds now."""
 
-    def go_together(self, *parts: Node, strictly: bool = False) -> None:
+    def go_together(self, *parts: Node, strictly: bool = False, hidden: bool = False) -> None:
         """Note that the shapes of quantities go together, as numpy asks for, where a condition tells how many rows.
 
-        Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis.
+        Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis. Of rows
+        that are put in or taken out it is noted then, and where numbers that there are not would be ``hidden``.
         """
-        if not self.filtered:
+        as_typed = self.draws and (strictly or hidden)
+        if not (self.filtered or as_typed):
             return
         fields = [part for part in parts if part.shape]
         one = self.constant(1)
         for axis in range(-1 if strictly else -max((len(part.shape) for part in fields), default=0), 0):
             lengths = dict.fromkeys(self.length(part, axis) for part in fields if len(part.shape) >= -axis)
             for a, b in combinations(lengths, 2):
-                if not (_by_condition(a) or _by_condition(b)):
+                if not (as_typed or _by_condition(a) or _by_condition(b)):
                     continue
                 alike = self.node("eq", a, b)
                 if not strictly:
                     alike = self.node("or", alike, self.node("or", self.node("eq", a, one), self.node("eq", b, one)))
-                self.see(alike)
+                self.see(alike, why=_UNLIKE if as_typed else "")
 
     def length(self, node: Node, axis: int) -> Node:
         """How many elements a quantity has along an axis, which is counted from the last one."""

@@ -167,6 +167,8 @@ def solved_rows(graph: Graph, rows: list[list[Any]]) -> list[list[Any]]:
 def solution(graph: Graph, A: Any, b: Any) -> Any:
     b = lift(graph, b)
     vector = b.ndim == 1
+    if vector:
+        graph.go_together(*lift(graph, A).parts, *b.parts, strictly=True)
     columns = [b] if vector else [b[..., k] for k in range(b.shape[-1])]
     solved = solved_rows(graph, [[*row, *(c[..., i] for c in columns)] for i, row in enumerate(_rows(graph, A))])
     if vector:

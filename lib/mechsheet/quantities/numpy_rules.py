@@ -213,6 +213,8 @@ def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: 
     if y.ndim != 1 and axis is None:
         raise NotRecorded("numpy's gradient of a table along all of its axes")
     y = y if axis is None else moved(y, axis, -1)
+    if np.ndim(x):
+        graph.go_together(*y.parts, *lift(graph, x).parts, strictly=True)
     h = _difference(graph, x) if np.ndim(x) else lift(graph, x).like(y[..., 1:])
     slope = _difference(graph, y) / h
     start, end = slope[..., :-1], slope[..., 1:]
@@ -250,6 +252,7 @@ def _clipped(graph: Graph, x: Any, low: Any = None, high: Any = None, min: Any =
 
 def _close(graph: Graph, x: Any, y: Any, rtol: float = 1e-5, atol: float = 1e-8) -> Any:
     x, y = lift(graph, x), lift(graph, y)
+    graph.go_together(*x.parts, *y.parts, hidden=True)
     return absolute(x - y) <= atol + rtol * absolute(y)
 
 

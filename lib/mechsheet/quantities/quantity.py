@@ -327,7 +327,8 @@ class Quantity(NDArrayOperatorsMixin):
         operands = [x if type(x) is Quantity else lift(self.graph, x) for x in inputs]
         if ufunc.signature or ufunc.nout > 1:
             return operation(*operands)
-        self.graph.go_together(*(part for x in operands for part in x.parts))
+        of_truth = "dd->d" not in ufunc.types  # what is compared with a number that is none is true or false
+        self.graph.go_together(*(part for x in operands for part in x.parts), hidden=of_truth)
         if ufunc in NOTED:
             NOTED[ufunc](*operands)
         key = ufunc, *[(x.re, x.im) for x in operands]
