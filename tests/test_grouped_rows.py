@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from own_worksheet import written
 from test_counted_turns import recorded
+from test_random_statements import sheet_of
 
+from mechsheet.quantities.node import bottom_up
 from mechsheet.readers.numbers import numbers
 from mechsheet.worksheet import cells
 
@@ -82,3 +84,15 @@ def test_what_is_put_together_by_names_is_that_of_the_names_shown(lines: str, tm
             assert known[column.re] == [told], each
         else:
             assert each and "x" not in each
+
+
+@pytest.mark.parametrize("line", ["AREA[g.mode]", "AREA.get(g.mode, 1.0)"])
+def test_an_option_of_these_inputs_alone_is_a_key_as_well(line: str, tmp_path: Path) -> None:
+    """Behind a statement that may have changed the inputs it was told to have no attribute ``value``."""
+    changed = "a = g.F * 1.0\n    b = a\n    b[0] = g.x\n    return a.sum()"
+    sheet = sheet_of(tmp_path, [f"def f():\n    {changed}", "y_0 = f() * 1.0", f"y_1 = {line} * 1.0"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    assert [gap.reason for gap in recording.gaps] == ["an array is changed that has another name too"]
+    column = recording.tables["y_1"][0]
+    assert column is not None and column.value == [2.5]
+    assert recording.inputs["mode"] in bottom_up([guard.holds for guard in recording.looked["zy_1"]], ())

@@ -294,7 +294,8 @@ def _each(key: Any) -> dict[str, Any]:
     """Whether each option is the chosen one, or has its text, by that name; none of any other key."""
     match key:
         case Chosen():
-            return cases(key)
+            known = cases(key)
+            return known if all(map(is_condition, known.values())) else {}  # where it is that of these inputs alone
         case Written((OneOf(_, texts, None),)):
             return {text: key == text for text in dict.fromkeys(texts)}
     return {}
