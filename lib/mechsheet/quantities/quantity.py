@@ -17,7 +17,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from mechsheet.quantities.graph import Graph, Label, NotRecorded
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.operations import Moved, Values
+from mechsheet.quantities.operations import OF_TRUTH, Moved, Values
 from mechsheet.units import UNKNOWN, Constant
 from mechsheet.worksheet import numbers
 
@@ -327,8 +327,7 @@ class Quantity(NDArrayOperatorsMixin):
         operands = [x if type(x) is Quantity else lift(self.graph, x) for x in inputs]
         if ufunc.signature or ufunc.nout > 1:
             return operation(*operands)
-        of_truth = "dd->d" not in ufunc.types  # what is compared with a number that is none is true or false
-        self.graph.go_together(*(part for x in operands for part in x.parts), hidden=of_truth)
+        self.graph.go_together(*(part for x in operands for part in x.parts), hidden=ufunc in OF_TRUTH)
         if ufunc in NOTED:
             NOTED[ufunc](*operands)
         key = ufunc, *[(x.re, x.im) for x in operands]
