@@ -506,6 +506,19 @@ def test_every_check_passes(change):
         assert "<svg" in names["ring_scheme"](p, k).svg()
 
 
+def test_a_case_that_no_elements_carry_leaves_the_drawings_of_the_others():
+    """Bars, areas and diagrams are drawn to the scale of all cases: one without a number took them from all."""
+    rows = {"beams": [(25, 12.5, 1, 1, 1), (-25, 12.5, 1, 1, 1)], "stringers": [(0, 0, 0, 0, 1)], "bolts": [0, 10]}
+    loads = {"loads": [CASES[0], (0, 1e4, 0)], "ring_loads": RING}
+    both, first = (
+        load(SHEET).run(["scheme", "ring_scheme", "sigma", "P_k"], {"g": given_as(rows | given)})
+        for given in (loads, {name: cases[:1] for name, cases in loads.items()})
+    )
+    assert np.isnan(both["sigma"][1, 1]).all() and np.isnan(both["P_k"][:, 1]).all(), "all cases are carried"
+    assert both["scheme"](0, 0, "h", "b").svg() == first["scheme"](0, 0, "h", "b").svg()
+    assert both["ring_scheme"](0, 0).svg() == first["ring_scheme"](0, 0).svg()
+
+
 def test_document_formulas_of_the_ring_are_left_empty_where_they_do_not_hold():
     names = joint.app.run(defs={"g": given_as({"ring_loads": [RING[0], (1.2e6, 1e7)]})})[1]
     assert np.isfinite(names["P_n"][:, 0]).all() and np.isnan(names["P_n"][:, 1]).all()

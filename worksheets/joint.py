@@ -562,7 +562,7 @@ def scheme(A, g, sigma, y, y_no, z):
         if inside:
             line = (left + right) / 2 + 1.3 * reach * array([-1, 1]) + 1j * axis
             picture = picture.path(line, "n.a.", "green")
-        base, scale = right + 0.6 * reach + 0.2 * size, 0.3 * size / np.max(abs(sigma))
+        base, scale = right + 0.6 * reach + 0.2 * size, 0.3 * size / np.nanmax(abs(sigma))
         levels = array([low, axis if inside else high, high])
         stress = np.interp(levels, [low, high], [sigma[p, k, lowest], sigma[p, k, highest]])
         for (bottom, top), (s_bottom, s_top) in zip(pairwise(levels), pairwise(stress), strict=True):
@@ -753,7 +753,7 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_rno):
             middle, half = (pi if M_r[k, 0] >= 0 else 0), pi - phi_no[p, k, 0]
             arc = middle + half * np.linspace(-1, 1, 91)
             load = N_r[k, 0] * g.r / 2 + M_r[k, 0] * cos(arc)
-            depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.min(p_o)
+            depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.nanmin(p_o)
             picture = picture.polygon([*out(arc, g.r), *out(arc, g.r * (1 - depth))[::-1]], colour="blue")
             value = p_o[p, k, 0]
             text = f"{value / 1e3:.4g} N/mm" if g.SI else f"{value / (kgf / cm):.4g} kgf/cm"
@@ -761,7 +761,7 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_rno):
         greatest_at = np.argmax(P_k[p, k] > (1 - 1e-9) * np.max(P_k[p, k]))  # the first of bolts that are alike
         for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
-            end = out(angle, g.r * (1 + 0.35 * force / np.max(P_k)))
+            end = out(angle, g.r * (1 + 0.35 * force / np.nanmax(P_k)))
             text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
             if force > 0:
                 picture = picture.path([out(angle, g.r), end], text if i == greatest_at else "", "red")
