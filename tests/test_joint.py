@@ -642,6 +642,9 @@ def test_si_changes_the_units_and_nothing_else(sheet):
             assert a.symbol == b.symbol and np.allclose(one, other, rtol=1e-14)
     assert used == {"-", "N", "N*m", "mm", "mm**2", "mm**3", "mm**4", "MPa", "deg", "N/mm"}
     assert not any("kgf" in c.unit for t in si.values() if isinstance(t, Table) for c in t.columns)
+    drawn = si["scheme"](0, 0, "h", "b").svg() + si["ring_scheme"](0, 0).svg()
+    assert "MPa" in drawn and " N<" in drawn and "kgf" not in drawn
+    assert "e+0" not in drawn, "forces of this size are written in full"
 
 
 @pytest.mark.parametrize(

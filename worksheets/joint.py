@@ -570,7 +570,7 @@ def scheme(A, g, sigma, y, y_no, z):
             outline += [base + scale * s_top + 1j * top, base + 1j * top]
             picture = picture.polygon(outline, colour="red" if s_bottom + s_top > 0 else "blue")
         for level, value, way in ((low, stress[0], -1), (high, stress[-1], 1)):
-            text = f"{value / 1e6:.4g} MPa" if g.SI else f"{value / (kgf / cm**2):.4g} kgf/cm²"
+            text = f"{value / 1e6:.5g} MPa" if g.SI else f"{value / (kgf / cm**2):.5g} kgf/cm²"
             picture = picture.text(base + 1j * (level + way * 0.03 * size), text.replace("-", "−"))
         return picture
 
@@ -756,13 +756,13 @@ def ring_scheme(M_r, N_r, P_k, g, p_o, phi, phi_no, y_rno):
             depth = 0.3 * load / load[45] * p_o[p, k, 0] / np.nanmin(p_o)
             picture = picture.polygon([*out(arc, g.r), *out(arc, g.r * (1 - depth))[::-1]], colour="blue")
             value = p_o[p, k, 0]
-            text = f"{value / 1e3:.4g} N/mm" if g.SI else f"{value / (kgf / cm):.4g} kgf/cm"
+            text = f"{value / 1e3:.5g} N/mm" if g.SI else f"{value / (kgf / cm):.5g} kgf/cm"
             picture = picture.text(out(middle, 0.5 * g.r), text.replace("-", "−"))
         greatest_at = np.argmax(P_k[p, k] > (1 - 1e-9) * np.max(P_k[p, k]))  # the first of bolts that are alike
         for i, (angle, force) in enumerate(zip(phi[p, 0], P_k[p, k], strict=True)):
             picture = picture.hinge(out(angle, g.r))
             end = out(angle, g.r * (1 + 0.35 * force / np.nanmax(P_k)))
-            text = f"{force:.4g} N" if g.SI else f"{force / kgf:.4g} kgf"
+            text = f"{force:.0f} N" if g.SI else f"{force / kgf:.5g} kgf"
             if force > 0:
                 picture = picture.path([out(angle, g.r), end], text if i == greatest_at else "", "red")
         axis = y_rno[k, 0]
