@@ -160,6 +160,7 @@ def test_lists_and_tables_are_edited_in_a_grid(serve, page, section, console_err
     page.get_by_label("y [cm], row 2").hover()
     page.locator("ms-grid tr", has=page.get_by_label("y [cm], row 2")).get_by_role("button").click()
     listed(page, "2", ["0.333", "0.667"])
+    expect(page.locator("ms-states")).to_contain_text("stringers = 1; -25; 30 | 2; 0; 30")  # each row to be told apart
     assert console_errors == []
 
 

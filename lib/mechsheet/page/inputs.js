@@ -219,7 +219,7 @@
       const as = this.refused ? "not computed with what the fields say" : differs.size ? "" : "as in the document";
       this.querySelector("[role=status]").textContent = [as, ...(this.strange?.values() ?? [])].filter(Boolean).join("; ");
       const changed = this.given.map(
-        ({ head, text, own, unit }) => `<span>${head} = <b>${plain(text)}</b> ${plain(unit)} <i>(${plain(own)} in the document)</i></span>`,
+        ({ head, text, own, unit }) => `<span>${head} = <b>${inLine(text)}</b> ${plain(unit)} <i>(${inLine(own)} in the document)</i></span>`,
       );
       this.lastElementChild.innerHTML = changed.join("");
     }
@@ -269,6 +269,7 @@
   window.addEventListener("hashchange", () => document.querySelector("ms-states")?.open());
 
   const plain = (text) => String(text).replace(/[&<>"]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
+  const inLine = (text) => plain(text).replaceAll("\n", " | "); // rows as in a scene: a page draws no end of line
   customElements.define("ms-states", States);
   customElements.define("ms-used", Used); // which tells the others at once
 })();
