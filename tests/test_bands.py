@@ -11,8 +11,9 @@ from own_worksheet import own
 from playwright.sync_api import expect
 
 from mechsheet.document import parts
-from mechsheet.readers.banded import run_bands
-from mechsheet.readers.bands import Bands, tolerances
+from mechsheet.page import study
+from mechsheet.readers.banded import Banded, run_bands
+from mechsheet.readers.bands import Band, Bands, tolerances
 from mechsheet.readers.enclosed import enclosed
 from mechsheet.recording.record import record
 from mechsheet.run import arguments, banding, batch, studied, within
@@ -476,6 +477,18 @@ def test_random_cases_are_drawn_from_the_distributions_at_the_inputs(tmp_path):
     drawn = tolerance(sheet.path, ["y"], method="monte carlo", seed=1, count=4000)
     assert drawn["y"].deviation == pytest.approx(np.hypot(2 / 3, 0.5 / 3**0.5), rel=0.05)
     assert "uniform and normal" in drawn.method and drawn.tolerances == {"F": 1.0, "a": 0.5}
+
+
+def test_the_page_writes_bands_as_the_numbers_that_they_stand_behind():
+    """Not as they are typed in a terminal: 1.7 deg stood behind 110°, and powers of ten as 2e-9."""
+
+    def told(*moves: float) -> str:
+        moved = np.array([moves])
+        return study._of_line([Banded("results", "phi", "deg", np.ones(len(moves)), Band(moved, moved))])
+
+    assert told(np.radians(1.7)) == "± 1.7°"
+    assert told(np.radians(0.2), np.radians(2e-5)) == "± up to 0.2°"
+    assert told(np.radians(2e-9)) == "± 2·10⁻⁹°"
 
 
 def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, console_errors):

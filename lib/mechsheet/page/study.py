@@ -172,7 +172,7 @@ def _told(bands: RunBands, tables: Sequence[Table], figures: Iterable[Figure]) -
         if own is None or own.band.why:
             return None
         worst = np.where(own.worst < _NOISE * own.most, 0.0, own.worst)
-        return [about(x) for x in worst[rows(len(worst))]]
+        return [numbers.on_page(about(x)) for x in worst[rows(len(worst))]]
 
     def shown(table: Table) -> list[tuple[Column, ...]]:
         return blocks(replace(table, columns=shortened(table.columns)[0]))
@@ -211,4 +211,5 @@ def _of_line(parts: Sequence[Banded]) -> str:
         return f"± not known: {why}"
     most = [off(part.most) for part in parts]
     among = "up to " if parts[0].values.size > 1 else ""
-    return f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"
+    told = f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"
+    return numbers.on_page(told)
