@@ -173,7 +173,7 @@ def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
         texts: Any = np.where(plain(condition), x, y)
         return texts
     c, a, b = lift(graph, condition), lift(graph, x), lift(graph, y)
-    graph.go_together(*c.parts, *a.parts, *b.parts, hidden=True)
+    graph.go_together(*c.parts, *a.parts, *b.parts)
     if a.im is None and b.im is None:
         return Quantity(graph, graph.fold("where", c.re, a.re, b.re))
     return Quantity(graph, graph.fold("where", c.re, a.re, b.re), graph.fold("where", c.re, imaginary(a), imaginary(b)))

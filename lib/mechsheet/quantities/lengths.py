@@ -1,7 +1,9 @@
 """How many elements quantities have along their axes, where these follow a number of rows."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from itertools import combinations
 from typing import Any, TypeVar
 
@@ -10,7 +12,18 @@ from mechsheet.quantities.operations import ELEMENTWISE
 
 _T = TypeVar("_T")
 _Asking = Generator[tuple[Node, int], Any, _T]  # of something that needs lengths: of which quantities, along which axes
+unnoted = ContextVar("unnoted", default=False)  # whether a loop takes its turns
 _UNLIKE = "what goes together here is not as long as each other for these inputs"
+
+
+@contextmanager
+def turning() -> Iterator[None]:
+    """A loop takes other turns for other inputs: nothing is noted of what one of them compares now."""
+    token = unnoted.set(True)
+    try:
+        yield
+    finally:
+        unnoted.reset(token)
 
 
 def _by_condition(length: Node) -> bool:
@@ -57,7 +70,7 @@ class Lengths(ABC):
         Where they are to ``strictly``, none is repeated: all are as long as each other along the last axis. Of rows
         that are put in or taken out it is noted then, and where numbers that there are not would be ``hidden``.
         """
-        as_typed = self.draws and (strictly or hidden)
+        as_typed = self.draws and (strictly or hidden) and not unnoted.get()
         if not (self.filtered or as_typed):
             return
         fields = [part for part in parts if part.shape]

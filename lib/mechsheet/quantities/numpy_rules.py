@@ -241,7 +241,11 @@ def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
 
 
 def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:
-    return choice(graph, condition, *both) if both else np.nonzero(condition)
+    if not both:
+        return np.nonzero(condition)
+    if not any(np.asarray(each).dtype.kind == "U" for each in both if not isinstance(each, Quantity | list | tuple)):
+        graph.go_together(*(part for each in (condition, *both) for part in lift(graph, each).parts), hidden=True)
+    return choice(graph, condition, *both)
 
 
 def _clipped(graph: Graph, x: Any, low: Any = None, high: Any = None, min: Any = None, max: Any = None) -> Any:

@@ -12,6 +12,7 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.lengths import unnoted
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, free_of
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
@@ -19,18 +20,7 @@ _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
 _DIVIDING = ("div", "pow", "mod")
 _ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs")
 _WHY = "it compares a number that does not exist for these inputs"
-_unnoted = ContextVar("_unnoted", default=False)
 _rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
-
-
-@contextmanager
-def turning() -> Iterator[None]:
-    """A loop takes other turns for other inputs: nothing is noted of what one of them compares now."""
-    token = _unnoted.set(True)
-    try:
-        yield
-    finally:
-        _unnoted.reset(token)
 
 
 @contextmanager
@@ -88,7 +78,7 @@ def _note(graph: Graph, node: Node, exists: Node) -> None:
 def compared(*operands: Quantity) -> None:
     """Note that Python compares what it may have an error for; the cells of a workbook have one themselves."""
     graph = operands[0].graph
-    if not graph.draws or _unnoted.get():
+    if not graph.draws or unnoted.get():
         return
     exist = [_exists(graph, part) for x in operands for part in x.parts]
     # Of other ways that are supposed nobody knows here when they are gone.

@@ -14,9 +14,9 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import imaginary, is_whole
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
+from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
-from mechsheet.quantities.refused import turning
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
 from mechsheet.recording.in_place import of_now
 
