@@ -298,7 +298,7 @@ def test_the_editor_runs_what_is_written_in_place_outside_a_clone_too(monkeypatc
 def test_test_hands_its_arguments_to_pytest(calls: list[list[str]]) -> None:
     """Behind its own, so that ``-n 0`` is one process."""
     assert launcher.main(["test", "-k", "planar", "-n", "0"]) == 7
-    own = [f"-n={os.cpu_count() + 1}", "--dist=worksteal", "--durations=10"]
+    own = [f"-n={os.cpu_count()}", "--dist=worksteal", "--durations=10"]
     assert calls == [[sys.executable, "-m", "pytest", *own, "-k", "planar", "-n", "0"]]
 
 
