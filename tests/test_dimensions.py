@@ -80,6 +80,13 @@ RIGHT = {
     "third of a volume": ["x = g.V ** (1 / 3)  # [mm] x", "y = np.cbrt(g.V)  # [mm] y"],
     "0 where nothing is": ["x = where(g.F > 0, g.F, 0)  # [N] x", "y = max(g.F, 0) - max(0, -g.F)  # [N] y"],
     "no number where nothing is": ["x = where(g.F > 0, g.F, np.nan) + np.inf  # [N] x"],
+    "what nothing makes": [  # an export ended in an IndexError
+        "P = np.array([g.F, 2 * g.F])",
+        "over = P[P > 1e6 * g.F]",
+        "x = (over * np.arange(1.0, len(over) + 1)).sum() + g.F  # [N] x",
+        "y = np.concatenate([over, over]).prod()  # [-] y",
+        "z = np.outer(over, P).sum() + g.F**2  # [N**2] z",
+    ],
     "vector of unlike elements": [
         "A = np.array([[1, 0, 0], [0, 1, 0], [g.L, g.D, 1]])",
         "b = np.array([g.F, 2 * g.F, g.M])",

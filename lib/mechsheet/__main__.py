@@ -97,7 +97,7 @@ def main(argv: "list[str] | None" = None) -> int:
     if command == "test":
         if not (ROOT / "tests").is_dir():
             raise refused(f"the tests are in a clone of the project, not beside {Path(__file__).parent}")
-        # One for each processor: with one more all take an eighth longer. An option that is given again is the last word.
+        # One for each processor: with one more all takes an eighth longer. An option given again is the last word.
         usual = [f"-n={os.cpu_count() or 1}", "--dist=worksteal", "--durations=10"]
         return call([interpreter("dev"), "-m", "pytest", *usual, *options], cwd=ROOT)
     if worksheet(command).endswith(".py"):

@@ -407,6 +407,8 @@ def _reduce(reader: Reader, node: Node) -> Codes:
 
 
 def _folded(reader: Reader, node: Node, kind: str, codes: list[int]) -> int:
+    if not codes:  # nothing makes 1, or a zero of any unit
+        return NUMBER if kind == "prod" else ANY
     total = codes[0]
     for code in codes[1:]:
         if kind == "prod":
