@@ -81,7 +81,7 @@ RIGHT = {
     "0 where nothing is": ["x = where(g.F > 0, g.F, 0)  # [N] x", "y = max(g.F, 0) - max(0, -g.F)  # [N] y"],
     "no number where nothing is": ["x = where(g.F > 0, g.F, np.nan) + np.inf  # [N] x"],
     "what nothing makes": [  # an export ended in an IndexError
-        "P = np.array([g.F, 2 * g.F])",
+        "P = np.array([0, g.F, 2 * g.F])",
         "over = P[P > 1e6 * g.F]",
         "x = (over * np.arange(1.0, len(over) + 1)).sum() + g.F  # [N] x",
         "y = np.concatenate([over, over]).prod()  # [-] y",

@@ -208,3 +208,20 @@ def test_a_workbook_has_a_check_of_the_number_of_its_rows(tmp_path: Path) -> Non
     assert guard.rows
     known = numbers([guard.holds], {recording.inputs["n"]: 6})
     assert not known[guard.holds]
+
+
+@pytest.mark.parametrize(
+    "sum_of_none",
+    [
+        "np.arange(1.0, g.n - 4).sum()",
+        "np.linspace(0.0, 1.0, g.n - 5).sum()",
+        "np.ones(g.n - 5).sum()",
+        "np.any(np.arange(g.n - 5) >= 0) * 1.0",
+        "np.arange(1.0, len(x[x > 4 * g.n]) + 1).sum()",
+    ],
+)
+def test_of_no_rows_cells_know_nothing_but_that_there_are_none(sum_of_none: str, tmp_path: Path) -> None:
+    """No cell of a row noted it: a sum of no rows was 0 for all other inputs."""
+    _, recording = recorded(own(tmp_path, f"y = {sum_of_none} + g.a  # [-] y"))
+    assert value_of(recording, "y", {"a": 1.5}) == 1.5
+    assert np.isnan(value_of(recording, "y", {"n": 8, "F": 30.0}))

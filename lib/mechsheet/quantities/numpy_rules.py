@@ -24,7 +24,7 @@ from mechsheet.quantities.array_rules import (
     summed,
     unwrapped,
 )
-from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.graph import Graph, Guard, NotRecorded
 from mechsheet.quantities.linear_rules import (
     determinant,
     diagonal,
@@ -373,8 +373,10 @@ FUNCTIONS[np.take] = lambda graph, x, k, axis=0: moved(moved(lift(graph, x), axi
 def counted(graph: Graph, count: Any, kind: type = int) -> Quantity:
     """The numbers 0, 1, 2 .. of so many rows, which a writer with a fixed number of them notes."""
     count = lift(graph, count)
-    rows = graph.rows(count.re, kind)
-    graph.see(graph.same(count.re), rows=True)
+    rows, same = graph.rows(count.re, kind), graph.same(count.re)
+    graph.see(same, rows=True)
+    if not (rows.size or graph.draws or same in graph.fixed):  # no cell of a row notes that there are none
+        graph.looked.setdefault(same, Guard(same, graph.line))
     return Quantity(graph, rows)
 
 
