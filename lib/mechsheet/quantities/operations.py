@@ -30,9 +30,9 @@ ELEMENTWISE: dict[str, Callable[..., Values]] = {
     "like": lambda a, *b: np.broadcast_arrays(a, *b)[0],  # in the shape that it has together with another one
     "sized": lambda a, same: np.where(same, a, np.nan),  # while lengths are the same
 }  # fmt: skip
+COMPARISONS = np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal
 OF_TRUTH = frozenset((  # which are true or false of what is no number too
-    np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal, np.logical_and, np.logical_or,
-    np.logical_xor, np.bitwise_and, np.bitwise_or, np.bitwise_xor,
+    *COMPARISONS, np.logical_and, np.logical_or, np.logical_xor, np.bitwise_and, np.bitwise_or, np.bitwise_xor,
 ))  # fmt: skip
 SHAPED = ("like", "sized")  # whose further operands give the shape alone
 REDUCE: dict[str, Callable[..., Any]] = {

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import reduce
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.lengths import unnoted
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, free_of
+from mechsheet.quantities.operations import COMPARISONS
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
@@ -125,14 +127,18 @@ def _all(graph: Graph, exist: Iterable[Node | None]) -> Node | None:
     return reduce(lambda a, b: graph.fold("and", a, b), each) if each else None
 
 
+def of_library(frame: FrameType) -> bool:
+    """Whether a frame runs code of this package, and not of a worksheet."""
+    return frame.f_code.co_filename.startswith(_LIBRARY)
+
+
 def _compared_there(*operands: Quantity) -> None:
     """The same in the code of a worksheet: what the library compares itself says nothing of an error."""
     frame: Any = sys._getframe(2)
     while frame.f_code.co_filename.startswith(_NUMPY):  # of its operators
         frame = frame.f_back
-    if not frame.f_code.co_filename.startswith(_LIBRARY):
+    if not of_library(frame):
         compared(*operands)
 
 
-_COMPARISONS = (np.less, np.less_equal, np.greater, np.greater_equal, np.equal, np.not_equal)
-NOTED.update(dict.fromkeys(_COMPARISONS, _compared_there))
+NOTED.update(dict.fromkeys(COMPARISONS, _compared_there))

@@ -35,7 +35,7 @@ _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
     MemberDescriptorType, _FIELD, Node,
 )  # fmt: skip
-# Types of most of what stands in lists: their instances are leaves, which the others are looked through for one by one.
+# Leaves by their very type, which one look tells: most of what stands in lists.
 _PLAIN = {int, float, complex, bool, str, bytes, np.float64, np.int64, np.bool_, ModuleType, type(None), Node}
 _SEEN = {list, tuple, dict, set, frozenset, deque, np.ndarray, CellType, FunctionType, type}  # of parts alone
 _UNCHANGED = (  # though what they hold may change

@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,9 +10,7 @@ from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import PARTIAL, NotRecorded, current
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, quantities
-from mechsheet.quantities.refused import on_ways
-
-_LIBRARY = str(Path(__file__).parents[1])
+from mechsheet.quantities.refused import of_library, on_ways
 
 
 class Refused(NotRecorded):
@@ -58,7 +55,7 @@ def handled(error: BaseException) -> None:
 def tried(*values: Any) -> Any:
     """What a worksheet makes where it handles errors: of what is no number Python may have made one."""
     graph = current.get()
-    if sys._getframe(1).f_code.co_filename.startswith(_LIBRARY):  # which handles errors whatever the numbers are
+    if of_library(sys._getframe(1)):  # which handles errors whatever the numbers are
         return values[0] if values else None
     for node in bottom_up((node for value in quantities(values) for node in value.nodes), ()):
         if node.op in PARTIAL and node not in graph.always:
