@@ -254,7 +254,8 @@ def own_units() -> Iterator[None]:
     yield
     definitions._own.clear()
     definitions._own.update(before)
-    definitions._known.cache_clear()
+    definitions.known.cache_clear()
+    definitions._unknown.cache_clear()
     definitions.single.cache_clear()
 
 

@@ -6,7 +6,6 @@ import re
 import subprocess
 import sys
 import warnings
-from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
 
@@ -144,7 +143,7 @@ def test_a_number_that_is_no_more_finite_differs(other: float) -> None:
 def test_of_a_field_with_gaps_the_numbers_that_there_are_are_told(values: list[float], said: str) -> None:
     field = Displayed("x", "mm", "length", np.array(values))
     assert str(field) == f"x = {said}, length"
-    states = [compare.State({}, {}, {"x": shown}, {}) for shown in (field, replace(field, values=2 * field.values))]
+    states = [compare.State({}, {}, {"x": shown}, {}) for shown in (field, field._replace(values=2 * field.values))]
     assert {change.old for change in compare.changes(*states)} <= {said}
 
 

@@ -352,7 +352,7 @@ def test_text_stays_text_everywhere(text: str) -> None:
     content = writing.workbook(
         text,
         inputs=[InputRow(text, text, text, text, text), InputRow(text, 1, text, text)],
-        found=[replace(FOUND, symbol=text, unit=text, meaning=text, residual_unit=text, other_roots=text)],
+        found=[FOUND._replace(symbol=text, unit=text, meaning=text, residual_unit=text, other_roots=text)],
         tables=[Table(text, text, (column, G56), text), Table(text, text, (S,), text)],
         figures=[figure, replace(figure, lines=(P_GC,))],
         checks=[Check(text, 1.0, 2.0, text, text)],

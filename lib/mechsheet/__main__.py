@@ -13,8 +13,6 @@ if not __package__:  # run as a folder, which heads the path: its modules must n
 import errno
 import os
 import re
-import signal
-import subprocess
 from pathlib import Path
 
 MINIMUM = (3, 11)
@@ -317,6 +315,9 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     if command[:2] == [sys.executable, "-m"] and command[2].startswith("mechsheet.") and is_utf8():
         os.environ.update(environ)
         return here(*command[2:])
+    import signal  # on use: what runs in this process waits for no other
+    import subprocess  # on use: as above
+
     with subprocess.Popen(command, cwd=cwd, env=environ) as process:
         ends = {
             signal.SIGTERM: lambda *_: process.terminate(),  # else a server outlives its command
@@ -369,6 +370,7 @@ def environment(root: Path, extra: str) -> str:
     so that an interrupted one is never taken for good.
     """
     import hashlib  # on use: an installed package has no environment of its own
+    import subprocess  # on use: as above
 
     folder = root / ".venv"
     mark = folder / "mechsheet.installed"
@@ -414,6 +416,8 @@ def create(folder: Path, mark: Path) -> None:
 
 def install(root: Path, python: Path, extra: str) -> None:
     """Install the project editable; what pip has to complain of, it says itself."""
+    import subprocess  # on use: once for a clone
+
     target = f".[{extra}]" if extra else "."
     pip = [str(python), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable", target]
     subprocess.run(pip, cwd=root, check=True)

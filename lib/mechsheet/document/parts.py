@@ -3,12 +3,11 @@
 import ast
 import re
 from collections.abc import Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from inspect import cleandoc
 from pathlib import Path
 from types import CodeType
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import load, results
@@ -26,23 +25,20 @@ _HEADING = re.compile(r"^(#+) +(.*\S)\s*$", re.MULTILINE)
 _OF_PAGE = {"ask", "export", "save_scene"}  # what they show is there to be pressed or filled in
 
 
-@dataclass(frozen=True)
-class Section:
+class Section(NamedTuple):
     """A heading; ``level`` 2 is that of a section, 3 of one in it."""
 
     level: int
     title: str
 
 
-@dataclass(frozen=True)
-class Text:
+class Text(NamedTuple):
     """Text between formulas, in Markdown with formulas between dollar signs."""
 
     markdown: str
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
     """A line with its value in SI; None for a line that is a function. Of a field it may be at one ``position``.
 
     ``over`` is what a field runs over, where that is known.
@@ -54,8 +50,7 @@ class Line:
     over: Over | None = None
 
 
-@dataclass(frozen=True)
-class Control:
+class Control(NamedTuple):
     """A slider by the name that the formulas read: what it moves, in ``unit``, and whether it turns on at its end."""
 
     name: str
@@ -68,8 +63,7 @@ class Control:
     unit: str = "-"
 
 
-@dataclass(frozen=True)
-class _Written:
+class _Written(NamedTuple):
     """A cell as it stands in the file: what it gives, in any case or in a branch, and the code of what it shows.
 
     ``before`` are the lines behind the names with ``_`` that it shows, which marimo keeps from other cells; both need

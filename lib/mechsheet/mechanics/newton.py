@@ -7,7 +7,7 @@ what is solved may itself compute with complex numbers. No start depends on the 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,7 @@ _ROUNDED = 8  # times that variation: what a residual may be
 _NOISE = 2.0**-6  # of what an equation changes over the sizes: where it varies by more, there is nothing to solve
 
 
-@dataclass(frozen=True)
-class Ended:
+class Ended(NamedTuple):
     """Where each start of each problem ended: unknowns (n, s, p), residuals (m, s, p), slopes (m, n, s, p).
 
     ``evaluations`` counts values of all equations, shape (s, p); ``scale`` (m, s, p) is what each equation changes over

@@ -9,7 +9,7 @@ problem gets does not depend on the others.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,8 +113,7 @@ class Roots:
         return reached
 
 
-@dataclass(frozen=True)
-class _Pieces:
+class _Pieces(NamedTuple):
     """Monotone pieces of f in all columns: rows of x with f and the residual, some of which touch the target.
 
     ``cross`` marks the pieces, from each row to the next one, whose ends differ in sign, ``level`` the columns in which

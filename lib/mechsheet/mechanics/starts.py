@@ -5,7 +5,6 @@ solution there are more of them; what lies where no start leads is not found, an
 slopes are singular may be as many as there are starts, where equations depend on each other: they count as one.
 """
 
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -24,8 +23,7 @@ _SEEN = 2.0**-4  # of an unknown is its size then at least: the two differ in th
 _REACH = 100.0  # sizes that the first step from a guess goes at most
 
 
-@dataclass(frozen=True)
-class Seen:
+class Seen(NamedTuple):
     """The distinct solutions that were seen of all problems p, NaN where a problem has fewer.
 
     ``x`` (n, r, p), ``residual`` (m, r, p) and ``condition`` (r, p) stand in ascending order of the first unknown;
@@ -97,7 +95,7 @@ def between(f: Equations, at: Place, unit: Array | None) -> Seen:
         found = (~np.isnan(known.x[0]) & ~singular).sum(0) + singular.any(0)
         searching = searching & (found > seen)
         seen = found
-    return replace(known, starts=starts)
+    return known._replace(starts=starts)
 
 
 def aside(f: Equations, at: Place, x: Array, condition: Array) -> Array:

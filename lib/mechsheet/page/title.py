@@ -5,7 +5,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from mechsheet.page.script import element, script
 from mechsheet.worksheet.title import Note, Title
 
 
@@ -19,6 +18,7 @@ def title_block(name: str, text: str = "") -> Title:
 
         if mo.app_meta().mode == "edit" and mo.running_in_notebook():
             from mechsheet.page import editor, in_place  # on use: only the editor needs them
+            from mechsheet.page.script import element, script  # on use: as above
 
             folded = mo.Html(script("folded.js") + element("ms-folded", **{"class": "ms-screen"}))
             told = list[Note]()

@@ -48,11 +48,12 @@ def kept(count: int) -> Callable[[Callable[[T], str]], Callable[[T], str]]:
 def _content(value: Any) -> Hashable:
     if isinstance(value, np.ndarray):
         return (_content(value.tolist()),) if value.dtype.hasobject else (value.tobytes(), value.dtype, value.shape)
+    named = [field.name for field in fields(value)] if is_dataclass(value) else getattr(value, "_fields", ())
+    if named:
+        known = ((name, getattr(value, name)) for name in named)
+        return (type(value), *(_unit(each) if name == "unit" else _content(each) for name, each in known))
     if isinstance(value, list | tuple):
         return (type(value), *map(_content, value))
-    if is_dataclass(value):
-        known = ((name, getattr(value, name)) for name in (field.name for field in fields(value)))
-        return (type(value), *(_unit(each) if name == "unit" else _content(each) for name, each in known))
     if isinstance(value, float | complex):
         return (type(value), np.asarray(value).tobytes())
     if value is None or isinstance(value, str | int | bool | np.generic):
@@ -61,8 +62,5 @@ def _content(value: Any) -> Hashable:
 
 
 def _unit(text: str) -> Hashable:
-    """A unit with what it measures, which one's own may change."""
-    try:
-        return text, units.parse(text)
-    except ValueError:  # what is counted, in words
-        return text
+    """A unit with what it measures, which one's own may change; what is counted, in words, has none."""
+    return text, units.known(text)

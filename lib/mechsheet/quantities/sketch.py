@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,7 @@ from mechsheet.worksheet.drawing import Drawing
 _SEEN = ("width", "height", "unit")  # of a drawing, which are what they are now
 
 
-@dataclass(frozen=True, eq=False)
-class Outline:
+class Outline(NamedTuple):
     """One element: its kind, single points or arrays of them [m], a name, and what else `Element` has.
 
     Where ``into`` holds its vector ends in the point.
@@ -34,7 +33,7 @@ class Outline:
     def where(self, condition: Quantity) -> "Outline":
         """The element while a condition holds; else its points are no numbers, and it is not drawn."""
         graph = condition.graph
-        return replace(self, points=tuple(where(graph, condition, p, np.nan) for p in self.points))
+        return self._replace(points=tuple(where(graph, condition, p, np.nan) for p in self.points))
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +82,7 @@ class Sketch(Drawing):
         return replace(self, elements=(*self.elements, Outline(kind, each, name, **others | lifted)))
 
 
-@dataclass(frozen=True)
-class Drawn:
+class Drawn(NamedTuple):
     """A recorded drawing that a cell shows, and the guards under which it is the worksheet's own."""
 
     sketch: Sketch

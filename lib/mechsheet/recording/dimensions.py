@@ -1,9 +1,8 @@
 """Units checked by the recording of a worksheet: what does not fit, by its line and part."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.converted import converted
@@ -21,8 +20,7 @@ from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 _TOLD = 3  # mistakes
 
 
-@dataclass(frozen=True)
-class Dimensions:
+class Dimensions(NamedTuple):
     """What the dimensions of a worksheet tell.
 
     ``notes`` are what a literal is taken for, and what would be a mistake unless one has a unit. ``missing`` are the

@@ -1,8 +1,8 @@
 """A factor of 2 pi that is missing between an angle and cycles in time, which have the same dimensions."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import isclose, pi
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,8 +35,7 @@ def turned(reader: Reader) -> Iterator[Mistake]:
                 yield Mistake(reader.places.line_of(line), line.name, why)
 
 
-@dataclass(frozen=True)
-class _Counted:
+class _Counted(NamedTuple):
     """What the value of a line is a multiple of, by the units that other lines and inputs declare."""
 
     reader: Reader

@@ -2,8 +2,7 @@
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from mechsheet.recording.memory import names_of
 from mechsheet.run import arguments, ending
@@ -17,8 +16,7 @@ if TYPE_CHECKING:
     import marimo as mo
 
 
-@dataclass(frozen=True)
-class Given:
+class Given(NamedTuple):
     """What stands for the fields where nobody fills them in."""
 
     value: dict[str, object]

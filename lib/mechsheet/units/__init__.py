@@ -11,7 +11,19 @@ nothing of the package; the stub beside this file tells the names, which type ch
 
 from typing import Any, NoReturn
 
-from mechsheet.units.definitions import PURE, Constant, Dims, Unit, celsius, constant, define, names, nearest, parse
+from mechsheet.units.definitions import (
+    PURE,
+    Constant,
+    Dims,
+    Unit,
+    celsius,
+    constant,
+    define,
+    known,
+    names,
+    nearest,
+    parse,
+)
 from mechsheet.units.exchange import ANGLE, BARE, CYCLES, alike, conversion, convertible, kind, turned
 from mechsheet.units.printing import raised, shown, si, word
 from mechsheet.units.text import UNKNOWN, plain
@@ -32,6 +44,7 @@ __all__ = [
     "convertible",
     "define",
     "kind",
+    "known",
     "names",
     "nearest",
     "parse",

@@ -6,6 +6,7 @@ from mechsheet.units.definitions import Unit as Unit
 from mechsheet.units.definitions import celsius as celsius
 from mechsheet.units.definitions import constant as constant
 from mechsheet.units.definitions import define as define
+from mechsheet.units.definitions import known as known
 from mechsheet.units.definitions import names as names
 from mechsheet.units.definitions import nearest as nearest
 from mechsheet.units.definitions import parse as parse

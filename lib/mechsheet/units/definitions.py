@@ -95,28 +95,33 @@ def parse(text: str) -> Unit:
     >>> parse("kN*cm").factor, parse("m/s**2").dims
     (10.0, (1, 0, -2, 0, 0, 0, 0))
     """
-    known = _known(text)
-    if isinstance(known, str):
-        raise ValueError(known)
-    return known
+    if (unit := known(text)) is None:
+        raise ValueError(_unknown(text))
+    return unit
 
 
 @lru_cache(maxsize=4096)
-def _known(text: str) -> Unit | str:
-    """A unit, or why there is none of this text."""
+def known(text: str) -> Unit | None:
+    """Unit of a text; nothing where it is none, such as "open positions"."""
     try:
         factor, dims = _product(text)
+    except (Unreadable, KeyError):
+        return None
+    return Unit(float(factor), dims)
+
+
+@lru_cache(maxsize=4096)
+def _unknown(text: str) -> str:
+    """Why a text is no unit, and which ones are nearest."""
+    try:
+        strange = next(factor.name for factor in factors(text) if known(factor.name) is None)
     except Unreadable:
         times = re.sub(r"(?<=[^\W\d_])[.-](?=[^\W\d_])", "*", text)  # N.m, N-m
         raised = re.sub(r"(?<=[^\W\d_])(-[1-9]|[2-9])", r"**\1", times)  # mm2
-        known = raised != text and not isinstance(_known(raised), str)
-        return f"unit [{text}] is not known; " + (f"nearest: {raised}" if known else _LIKE)
-    except KeyError as error:
-        (name,) = error.args
-        of = f": {name}" if name != text else ""
-        near = nearest(name)
-        return f"unit [{text}] is not known{of}; " + (f"nearest: {', '.join(near)}" if near else _LIKE)
-    return Unit(float(factor), dims)
+        return f"unit [{text}] is not known; " + (f"nearest: {raised}" if raised != text and known(raised) else _LIKE)
+    of = f": {strange}" if strange != text else ""
+    near = nearest(strange)
+    return f"unit [{text}] is not known{of}; " + (f"nearest: {', '.join(near)}" if near else _LIKE)
 
 
 def _product(text: str) -> tuple[Fraction | float, Dims]:
@@ -166,19 +171,19 @@ def nearest(name: str) -> list[str]:
     """Units that are written much like another name, best first; of two that run together their product."""
     if meant := _MEANT.get(name) or _in_words(name.lower()) or _in_words(name.lower().removesuffix("s")):
         return [meant]
-    known = names()
-    if name[-1:] in ("g", "a") and name[:-1] in known and single(name[:-1])[1] == single("Pa")[1]:
+    every = names()
+    if name[-1:] in ("g", "a") and name[:-1] in every and single(name[:-1])[1] == single("Pa")[1]:
         return [name[:-1]]  # a pressure over that of the air, or over none
-    if name[:1] == "K" and f"k{name[1:]}" in known:
+    if name[:1] == "K" and f"k{name[1:]}" in every:
         return [f"k{name[1:]}"]
     halves = ((name[:n], name[n:]) for n in range(1, len(name)))
     plain = {*BASE, *DEFINED}
-    if together := [f"{a}*{b}" for a, b in halves if a in known and (b in plain or (b in known and a[-1].isupper()))]:
+    if together := [f"{a}*{b}" for a, b in halves if a in every and (b in plain or (b in every and a[-1].isupper()))]:
         return together
     import difflib  # on use: only a mistaken unit needs it
 
-    alike = [n for n in known if n.lower() == name.lower()]
-    common = [n for n in known if n in DEFINED or n in BASE or n[:1] in "umckMG"]
+    alike = [n for n in every if n.lower() == name.lower()]
+    common = [n for n in every if n in DEFINED or n in BASE or n[:1] in "umckMG"]
     return alike[:3] or difflib.get_close_matches(name, common, n=2, cutoff=0.6)
 
 
@@ -186,7 +191,7 @@ def _in_words(name: str) -> str:
     """The unit of a word, or of one with a prefix before it that the unit takes; nothing where there is none."""
     for word, prefix in _PREFIX_WORDS.items():
         unit = prefix + _MEANT.get(name.removeprefix(word), "")
-        if name.startswith(word) and unit != prefix and not isinstance(_known(unit), str):
+        if name.startswith(word) and unit != prefix and known(unit):
             return unit
     return _MEANT.get(name, "")
 
@@ -220,14 +225,15 @@ def define(name: str, number: float, unit: str) -> float:
     parse(unit)
     size, dims = _product(unit)
     new, file = (Fraction(repr(float(number))) * size, dims), str(sys._getframe(1).f_globals.get("__file__", ""))
-    known, owner, _ = _own.get(name, (None, "", ""))
-    if known is None and not isinstance(_known(name), str):
-        known = single(name)
-    if known == new:
+    old, owner, _ = _own.get(name, (None, "", ""))
+    if old is None and known(name):
+        old = single(name)
+    if old == new:
         return constant(name)
-    if known and owner != file:
+    if old and owner != file:
         raise ValueError(f"unit {name} is {parse(name).factor!r} in SI units already, not {float(new[0])!r}")
     _own[name] = new, file, unit
-    _known.cache_clear()
+    known.cache_clear()
+    _unknown.cache_clear()
     single.cache_clear()
     return constant(name)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 
-from mechsheet.units.definitions import BASE, DEFINED, OF_ANGLE, PREFIXED, Dims, parse, single
+from mechsheet.units.definitions import BASE, DEFINED, OF_ANGLE, PREFIXED, Dims, known, single
 from mechsheet.units.text import UNKNOWN, factors, plain
 
 _POWERS = str.maketrans("-/0123456789", "⁻⁄⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -33,9 +33,7 @@ def shown(text: str, power: Callable[[Fraction], str] = raised, times: str = "·
     ('MPa·m¹⁄²', 'open positions')
     """
     if text != UNKNOWN:
-        try:
-            parse(text)
-        except ValueError:
+        if known(text) is None:
             return text
         text = plain(text)
     names = re.sub(r"[^\W\d_]+", lambda name: degree if name[0] == "deg" else _printed(name[0]), text)

@@ -2,7 +2,7 @@
 
 from collections import ChainMap, Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
@@ -64,7 +64,7 @@ class Arrangement:
         self._names = DefinedNames()
         self.changed = self._defined(changed, changed.name, 1)
         for symbol, node in recording.inputs.items():
-            place = replace(inputs[symbol], aligned=node.size == 1)
+            place = inputs[symbol]._replace(aligned=node.size == 1)
             self.places[node] = self._defined(place, symbol, node.size)
         under = set(bottom_up(self._roots(), ()))
         self.followed = {symbol for symbol, node in recording.inputs.items() if node in under}
@@ -97,7 +97,7 @@ class Arrangement:
 
     def _defined(self, place: Place, symbol: str, size: int) -> Place:
         """A place under a name of its own."""
-        named = replace(place, name=self._names.new(symbol.replace(".", "_")))
+        named = place._replace(name=self._names.new(symbol.replace(".", "_")))
         self.defined.append((named.name, named.meaning(size)))
         return named
 

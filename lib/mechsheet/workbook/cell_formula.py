@@ -3,7 +3,6 @@
 import math
 import re
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -290,7 +289,7 @@ class CellFormulas:
         if node.size == 1:
             return f"{self._element(node, _FIRST, rows)[0]}={written(node.value.item())}"
         place = self.places[node]
-        return f"SUM({replace(place, column=place.column + place.differs).range(0, node.size - 1)})=0"
+        return f"SUM({place._replace(column=place.column + place.differs).range(0, node.size - 1)})=0"
 
 
 def _of_one_source(node: Node) -> list[Index]:

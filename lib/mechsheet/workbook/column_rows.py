@@ -2,7 +2,6 @@
 
 import math
 import re
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -27,8 +26,7 @@ class Unlike(Exception):
     """The rows have no formula in common."""
 
 
-@dataclass(frozen=True, eq=False)
-class Rows:
+class Rows(NamedTuple):
     """Numbers of the rows of a quantity of a ``shape``, whose first number stands in the row ``first`` of its sheet.
 
     A cell that stands ``alone`` belongs to no row. In a formula ``{{n}}`` stands for a row of the sheet, that of the

@@ -1,7 +1,7 @@
 """The sheet of the found values, the residuals that they leave and the intervals searched."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from mechsheet.units import shown
 from mechsheet.workbook import looks
@@ -10,8 +10,7 @@ from mechsheet.workbook.content import Content, Live
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 
 
-@dataclass(frozen=True)
-class FoundRow:
+class FoundRow(NamedTuple):
     """One solved value in ``unit``, searched for in ``lower..upper``, and the ``residual`` that it leaves.
 
     ``unknown`` is what the solve block calls it, behind the name of its verdict, ``kind`` what it is, ``target`` the

@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet import units
 from mechsheet.quantities.lines import Recording
@@ -31,8 +30,7 @@ _ALL = "all checks PASS"
 _VERDICT = "Checks!$E:$E"
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(NamedTuple):
     """A key result: its value, or the least and the greatest one of a column."""
 
     symbol: str

@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.units import shown, si
 from mechsheet.workbook import input_formulas, looks
@@ -23,8 +22,7 @@ _NOTE = "Rows may be added below or taken out. The cells of this workbook are ma
 _NOTE += "worksheet with it as a scene."
 
 
-@dataclass(frozen=True)
-class GridColumn:
+class GridColumn(NamedTuple):
     """A column of numbers in its ``unit``, or of texts, under its full name, such as ``bolts.x``."""
 
     symbol: str
@@ -42,8 +40,7 @@ class GridColumn:
         return ", ".join(["whole number"] * self.whole + [*own])
 
 
-@dataclass(frozen=True)
-class Grid:
+class Grid(NamedTuple):
     """A table, or a list of one column, with its place among the inputs."""
 
     symbol: str
@@ -57,8 +54,7 @@ class Grid:
         return f"{len(self.columns[0].values)} rows on the sheet {SHEET}"
 
 
-@dataclass(frozen=True)
-class _Spot:
+class _Spot(NamedTuple):
     """Where a column stands: itself, and the first column of what is held of it."""
 
     column: GridColumn

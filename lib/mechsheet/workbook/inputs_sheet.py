@@ -1,9 +1,8 @@
 """The sheet of the inputs, which the user of a workbook edits."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.units import shown, si
 from mechsheet.workbook import input_formulas, input_tables_sheet, looks
@@ -23,8 +22,7 @@ _SHEET = "Inputs"
 _SI = 5  # column of the numbers in SI units
 
 
-@dataclass(frozen=True)
-class InputRow:
+class InputRow(NamedTuple):
     """One input: ``value`` is in ``unit``, a text, or one of the ``options``; those of a ``section`` stand together.
 
     ``limits``, ``whole`` and ``tolerance`` are those of the declared input. It is element ``k`` of the ``leaf`` of a
@@ -80,7 +78,7 @@ def rows(g: Any) -> list[Item]:
             field.name, written, field.unit, field.meaning, field.section, field.limits, field.whole, options
         )
         if field.tolerance:
-            row = replace(row, tolerance=field.tolerance.text(field.unit))
+            row = row._replace(tolerance=field.tolerance.text(field.unit))
         asked.append(row)
     return asked + shown
 

@@ -1,8 +1,8 @@
 """A place in a workbook: the cell or column where a quantity stands, and the defined name that means it."""
 
 import re
-from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 _ADDRESS = re.compile(r"[A-Za-z]{1,3}\d+|[rR]\d*([cC]\d*)?|[cC]\d*|[rR]\d+[cC]\d+")
 
@@ -26,8 +26,7 @@ class DefinedNames:
         return name
 
 
-@dataclass(frozen=True)
-class Place:
+class Place(NamedTuple):
     """Where a quantity stands: a cell or a column, and the name that means it (in a column: the cell of its row).
 
     The name of a column whose rows are not those of the tables means all of it: it is not ``aligned``. Of an input,
@@ -49,7 +48,7 @@ class Place:
 
     def text(self, k: int) -> str:
         """Address of the cell in which the k-th is typed."""
-        return replace(self, column=self.column + self.typed).at(k)
+        return self._replace(column=self.column + self.typed).at(k)
 
     def range(self, first: int, last: int) -> str:
         """Address of the cells from the first one to the last."""

@@ -1,7 +1,6 @@
 """The formulas that stand on the sheets of a workbook: of inputs, tables, found values, checks, marks and lines."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from mechsheet import units
@@ -151,7 +150,7 @@ class SheetFormulas:
         """Address of the cells in which the texts of an input are typed."""
         node = self.recording.inputs[name]
         place = self.arrangement.places[node]
-        return replace(place, column=place.column + place.typed).range(0, node.size - 1)
+        return place._replace(column=place.column + place.typed).range(0, node.size - 1)
 
     def words(self, key: str, text: str, otherwise: str = "") -> Content:
         """A title or a note: where inputs change it, what stands there ``otherwise`` for others."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from symtable import SymbolTable, symtable
 from textwrap import dedent
 from types import CodeType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,8 +26,7 @@ _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
 _PART = re.compile(r"abs\((\w+)\)|(\w+)\.(real|imag)")
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """One cell: the names it reads and defines, the names that its checks may have, its lines as a tree and as code."""
 
     name: str

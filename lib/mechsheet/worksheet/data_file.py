@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.worksheet.errors import SheetError, cut
 
@@ -35,8 +35,7 @@ def from_file(name: str) -> Any:
     return DataFile(name)
 
 
-@dataclass(frozen=True)
-class Columns:
+class Columns(NamedTuple):
     """Cells by column, as they are given, each with its unit behind it, and where the rows stand in the file."""
 
     path: Path

@@ -2,8 +2,7 @@
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,8 +19,7 @@ Start = ArrayLike | tuple[ArrayLike, ArrayLike]  # a guess, or the ends of an in
 _BLOCK = 2**13  # values of the equations asked for at once: many more leave the processor's cache
 
 
-@dataclass(frozen=True)
-class Words:
+class Words(NamedTuple):
     """What is asked, in words and display units; of a complex equation both parts."""
 
     names: tuple[str, ...]
@@ -42,8 +40,7 @@ class Words:
         return ", ".join(shown)
 
 
-@dataclass(frozen=True)
-class Asked:
+class Asked(NamedTuple):
     """A solve block of several unknowns: problems of a ``shape``, p in all, the ``void`` ones without numbers.
 
     ``interval`` has the two ends, or twice the guess, of each unknown as given; ``place`` is of all unknowns and

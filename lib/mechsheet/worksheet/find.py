@@ -8,7 +8,7 @@ has a root, with the same value.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property, partial
-from typing import Any, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,8 +25,7 @@ from mechsheet.worksheet.verdict import Verdict, asks_values_only
 _BESIDE = 1.125  # times the guess: another place to try f
 
 
-@dataclass(frozen=True)
-class _Words:
+class _Words(NamedTuple):
     """What is asked, in words and display units."""
 
     unknown: str
@@ -168,8 +167,7 @@ class Found(Verdict):
         return [*rows, ("computed", f"{self.evaluations} times")]
 
 
-@dataclass(frozen=True, eq=False)
-class _Everything:
+class _Everything(NamedTuple):
     """What the search of all branches tells: see `Found`."""
 
     roots: tuple[Root, ...]

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.worksheet import source
 from mechsheet.worksheet.errors import SheetError, refuse
@@ -18,8 +18,7 @@ _LABELS = re.compile(r"\(((?:appendix|figures?|programs?|sheets?|tables?) [^()]*
 _HEADING = re.compile(r"^ *#+ +(.*\S)", re.MULTILINE)
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """One place of the worksheet.
 
     ``label`` is what the document calls it, such as ``(1.26)``, ``figure 1.3``, ``program SR2``; nothing where it has

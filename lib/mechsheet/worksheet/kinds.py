@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 from operator import index
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -240,8 +240,7 @@ def cases(chosen: Chosen) -> dict[str, Any]:
     return {option: chosen == option for option in chosen._options}
 
 
-@dataclass(frozen=True)
-class Offer:
+class Offer(NamedTuple):
     """Options with their properties, and which of them is chosen at first."""
 
     options: Mapping[str, Any]

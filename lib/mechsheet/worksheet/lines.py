@@ -3,7 +3,6 @@
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -20,8 +19,7 @@ _ONE_NUMBER = r"\(\d{1,3}(?:\.\d+)*[a-z]?\)"
 _NUMBER = re.compile(rf"{_ONE_NUMBER}(?:\s*[-–,]\s*{_ONE_NUMBER})*(?=\s|$)")
 
 
-@dataclass(frozen=True)
-class Formula:
+class Formula(NamedTuple):
     """One line ``name = expression  # [unit] (1.26) meaning``.
 
     ``number`` is that of the printed formula, in its brackets: ``(1.26)``, ``(1.13), (1.14)``, or nothing.
@@ -52,8 +50,7 @@ class Formula:
         return not (self.arguments or self.again)
 
 
-@dataclass(frozen=True)
-class Given:
+class Given(NamedTuple):
     """An equation of a solve block: ``expression`` must become ``target``; ``first`` of the block or a further one.
 
     ``name`` is what the block is bound to.
@@ -138,8 +135,7 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 again = next((cell.body[n].lineno for n in binding.get(line.name, ()) if n > k), 0)
                 anew = () if line.arguments else (name for name in names_read(line) if binding.get(name, [-1])[-1] >= k)
-                yield replace(
-                    line,
+                yield line._replace(
                     unit=told.unit,
                     number=printed,
                     meaning=meaning,
@@ -364,8 +360,7 @@ class _Registry(Mapping[str, Formula]):
         return sum(1 for _ in self)
 
 
-@dataclass(frozen=True)
-class _Line:
+class _Line(NamedTuple):
     """A line as it stands in the source, and the other display units that its cell's typeset gives."""
 
     formula: Formula
@@ -394,7 +389,7 @@ def displayed(line: Formula, display: Mapping[str, str]) -> Formula:
     unit, mistake = _read(display[line.unit])
     if not mistake and (units.parse(unit).dims != units.parse(line.unit).dims or units.turned(unit, line.unit)):
         unit, mistake = units.UNKNOWN, f"unit [{display[line.unit]}] does not measure {line.unit}"
-    return replace(line, unit=unit, mistake=mistake)
+    return line._replace(unit=unit, mistake=mistake)
 
 
 @lru_cache(maxsize=32)

@@ -157,8 +157,8 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
 
     Of a name that a unit has too those in brackets and behind numbers are units, and a text that is one.
     """
-    symbol, is_unit = rf"(?:{_FIRST}|(?<=\bg\.)){re.escape(old)}{_LAST}", _is_unit(old)
-    if is_unit and text.strip("\"'") != old and _is_unit(text.strip("\"'")):
+    symbol, is_unit = rf"(?:{_FIRST}|(?<=\bg\.)){re.escape(old)}{_LAST}", units.known(old)
+    if is_unit and text.strip("\"'") != old and units.known(text.strip("\"'")):
         return text
     in_units = [found.span() for found in re.finditer(rf"{_IN_BRACKETS}|{_BEHIND_A_NUMBER}", text) if is_unit]
 
@@ -179,17 +179,9 @@ _IN_BRACKETS = r"(?<![\w\])])\[[^\]\n\"']*\]"  # and no index
 _BEHIND_A_NUMBER = r"(?:(?<![\w.])\d[\d.,]*(?:e[+-]?\d+)?|\}) ?[^\W\d]+(?:[*/·^]+-?\w+)*"
 
 
-def _is_unit(text: str) -> bool:
-    try:
-        units.parse(text)
-    except ValueError:
-        return False
-    return True
-
-
 def _in_scene(text: str, old: str, new: str) -> str:
     """What a scene names; in braces are columns of rows, behind numbers and first in a comment units."""
-    others = [r"\{[^{}]*\}", *([_BEHIND_A_NUMBER, r"#\s*[^\s,;]+"] if _is_unit(old) else [])]
+    others = [r"\{[^{}]*\}", *([_BEHIND_A_NUMBER, r"#\s*[^\s,;]+"] if units.known(old) else [])]
     symbol = rf"(?P<other>{'|'.join(others)})|{_FIRST}{re.escape(old)}{_LAST}"
     return re.sub(symbol, lambda found: found["other"] or new, text)
 

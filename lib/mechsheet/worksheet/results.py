@@ -1,8 +1,8 @@
 """Results of a worksheet by name: their values in display units, and the limits that a scene sets on them."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,7 @@ from mechsheet.worksheet.over import over
 from mechsheet.worksheet.scene import Limit
 
 
-@dataclass(frozen=True)
-class Displayed:
+class Displayed(NamedTuple):
     """A number or a field of numbers in its display unit; of a longer field ``places`` are where its ends are."""
 
     name: str

@@ -20,7 +20,7 @@ import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.worksheet.errors import SheetError, as_given, cut
 from mechsheet.worksheet.kinds import number
@@ -28,8 +28,7 @@ from mechsheet.worksheet.kinds import number
 PROVED, MOST_PROVED = 9.0, 15  # digits that a proof is asked for by itself, and at most
 
 
-@dataclass(frozen=True)
-class Limit:
+class Limit(NamedTuple):
     """Between what a result must lie, in its display unit."""
 
     min: float | None = None

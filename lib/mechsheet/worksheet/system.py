@@ -9,7 +9,7 @@ from collections import namedtuple
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -146,8 +146,7 @@ class Solution(Verdict):
         return f"{name} {'from' if np.array_equal(*ends) else 'in'} {numbers.extent(ends, unit)}"
 
 
-@dataclass(frozen=True)
-class _Others:
+class _Others(NamedTuple):
     """What there is beside the value."""
 
     solutions: tuple[Any, ...]

@@ -2,14 +2,13 @@
 
 import sys
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.shown import Shown, page
 
 
-@dataclass(frozen=True)
-class Note:
+class Note(NamedTuple):
     """What is told of the cell of that id: a mistake, or what need not be one."""
 
     cell: str

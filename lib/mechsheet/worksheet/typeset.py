@@ -80,9 +80,9 @@ def _with_constants(row: Formula | Given, namespace: Mapping[str, Any], blocks: 
     """A line with the units among the names that it reads, and with the unknowns of solve ``blocks``."""
     found = ((name, _of_unit(name, namespace)) for name in names_read(row))
     constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
-    row = replace(row, constants=constants) if constants else row
+    row = row._replace(constants=constants) if constants else row
     solved = tuple((name, blocks[name]) for name in names_read(row) if name in blocks)
-    return replace(row, solved=solved) if solved and isinstance(row, Formula) else row
+    return row._replace(solved=solved) if solved and isinstance(row, Formula) else row
 
 
 @lru_cache(maxsize=32)

@@ -29,8 +29,4 @@ def unbracketed(comment: str, names: Container[str] = ()) -> str:
     product = re.search(r"[*/^·⋅]", unit) and (max(map(len, used), default=0) > 1 or _LETTERS.issuperset(used))
     if all(name in names for name in used) or not (product or _ALONE.fullmatch(unit)):
         return ""
-    try:
-        units.parse(unit)
-    except ValueError:
-        return ""
-    return f"[{unit}] {' '.join(words)}"
+    return f"[{unit}] {' '.join(words)}" if units.known(unit) else ""
