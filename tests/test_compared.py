@@ -68,6 +68,37 @@ UNLIKE = {
     "equations": "np.linalg.solve(np.eye(4) * 2.0 + g.u**2, g.F)[0]",
     "a product": "np.ones(g.n) @ np.arange(5.0) * g.u",
 }
+# For each a loop of which one turn compares a number that there is not, for some of the other inputs.
+IN_TURNS = {
+    "what ends it": "for w in SIZES:\n    if w > 1 / g.x:\n        break\n    s = s + w",
+    "an element that ends it": "for i in range(3):\n    if SIZES[i + g.k] > 2.0:\n        break\n    s = s + 1.0",
+    "a quotient of its number": "for i in range(4):\n    if i + 1 > 1 / (g.x - i + 2.5):\n        break\n    s = s + 1",
+    "a number of turns": "for i in range(g.n):\n    if 1 / (g.x - i) > 0.4:\n        break\n    s = s + 1.0",
+    "what it has made": (
+        "w = 1.5\nfor i in range(g.n):\n    if w > 1 / (w - g.x):\n        break\n    w = w * 1.5\ns = s + w"
+    ),
+    "one in another": (
+        "for w in (1, 2.5):\n    for v in (2, 3.0):\n        if v > w / g.x:\n            break\n        s = s + 1.0"
+    ),
+    "an element beyond the last": "for i in range(g.n):\n    if SIZES[i] > 100:\n        break\n    s = s + 1.0",
+    "while it holds": "while s < 1 / g.x:\n    s = s + 0.5",
+    "a way in it": "for w in SIZES:\n    if w > 4.0:\n        break\n    s = s + (w if w > 1 / g.x else 0.5)",
+    "no turn before its end": "for w in SIZES:\n    if w > 0:\n        break\n    s = s + (w if w > 1 / g.x else 0.5)",
+}
+# For each what is made of a number that Python has an error for, where numpy has infinity.
+MADE = {
+    "springs in series": "1 / (1 / g.x + 1 / g.u)",
+    "a function of them": "(lambda a, b: 1 / (1 / a + 1 / b))(g.x, g.u)",
+    "a power": "(1 + g.x ** -2) ** -1",
+    "an exponential": "math.exp(-1 / abs(g.x)) + g.u",
+    "the least": "min(1 / abs(g.x), 5.0)",
+    "an angle": "math.atan(1 / g.x)",
+    "of a function of math": "1 / (1 + 1 / math.sin(g.x))",
+    "of the greatest": "1 / (1 + 1 / max(g.x, 0.0))",
+    "a sum": "sum(1 / (1 + 1 / (z - g.x)) for z in (1.5, 3.0, 0.0))",
+    "one asked for first": "g.u / g.x if g.x else 0.0",
+    "elements of an array": "float(np.sum(1 / (1 + 1 / (np.array(SIZES) - g.x))))",
+}
 # The same where Python asks first, or has a number in its place: there is one for all inputs.
 ASKED = {
     "beside a condition": [W, "c = g.k < 4 and w[g.k] > 5"],
@@ -85,6 +116,36 @@ ASKED = {
     "numpy's quotient": ["c = np.sin(g.u) / g.x > 0.5"],
     "numpy's root": ["c = np.sqrt(g.x) > 0.5"],
 }
+
+
+def test_a_page_shows_no_number_that_is_made_of_one_for_which_python_has_an_error(blank: Page, tmp_path: Path) -> None:
+    """One over infinity is 0: springs in series of which one has no stiffness were shown with 0, without a word."""
+    names = [f"y_{n}" for n in range(len(MADE))]
+    every = list[list[float]]()
+    for n, expression in enumerate(MADE.values()):  # one by one: an error would hide what is behind it
+        (tmp_path / f"{n}").mkdir()
+        every.append([x for (x,) in plain(sheet_of(tmp_path / f"{n}", [f"y_0 = {expression}"]), ["y_0"])])
+    sheet = sheet_of(
+        tmp_path, [f"{name} = {expression}" for name, expression in zip(names, MADE.values(), strict=True)]
+    )
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    nodes = {n: recording.tables[name][0].re for n, name in enumerate(names)}
+    found = by_page(blank, sheet, recording, nodes, {n: [] for n in nodes})
+    for n, (name, own) in enumerate(zip(MADE, every, strict=True)):
+        np.testing.assert_allclose([shown.get(n, np.nan) for shown in found], own, err_msg=name)
+        assert np.isnan(own).any() == (name not in ("one asked for first", "elements of an array"))
+
+
+@pytest.mark.parametrize("loop", IN_TURNS.values(), ids=IN_TURNS)
+def test_a_page_takes_no_turns_where_python_has_an_error(loop: str, blank: Page, tmp_path: Path) -> None:
+    """A turn that ends a loop, or does not, by a number that there is not."""
+    sheet = sheet_of(tmp_path, ["s = 0.0", loop, "y_0 = s + g.u"])
+    told = plain(sheet, ["y_0"])
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    nodes = {0: recording.tables["y_0"][0].re}
+    looked = {0: [guard.holds for guard in recording.looked["zy_0"]]}
+    found = by_page(blank, sheet, recording, nodes, looked)
+    np.testing.assert_allclose([shown.get(0, np.nan) for shown in found], np.ravel(told))
 
 
 @pytest.mark.parametrize("lines", [*NOT_THERE.values(), *ASKED.values()], ids=[*NOT_THERE, *ASKED])

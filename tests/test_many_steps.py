@@ -92,6 +92,14 @@ def test_arrays_whose_elements_are_set_one_by_one_are_followed(steps: str, tmp_p
     assert not any(source.op == "join" for node in whole for source in node.args[0]), "they are no chain"
 
 
+def test_steps_that_use_the_last_one_more_than_once_are_walked_once(tmp_path: Path) -> None:
+    """Of sixty steps that name it thrice there are 3**60 ways down, and one step of each."""
+    root = "z = g.F\nfor _ in range(60):\n    z = z - (z * z - 2.0) / (2 * z)\ny = z / g.a  # [-] of a root"
+    recording = recorded(own(tmp_path, root))[1]
+    wanted = [recording.values["y"].re]
+    assert np.isnan(numbers(wanted, {recording.inputs["a"]: 0.0})[wanted[0]])
+
+
 def test_formula_that_is_too_deep_to_be_read_is_refused_at_its_line(tmp_path: Path) -> None:
     deep = " + ".join(f"{n} * g.F" for n in range(600))
     with pytest.raises(SheetError, match=r"own.py, line 38: 60\d operations in one another, and 300 are read"):

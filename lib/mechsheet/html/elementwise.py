@@ -1,5 +1,6 @@
 """JavaScript of single operations and numbers: what an elementwise operation of a recording is there."""
 
+import re
 from collections.abc import Iterator
 from itertools import count, product
 from string import ascii_letters
@@ -34,16 +35,22 @@ ELEMENTWISE: dict[str, tuple[str, int, tuple[int, ...]]] = {
     **{op: (f"{op}({{}},{{}})", 10, (1, 1)) for op in ("atan2", "mod", "min", "max")},
 }  # fmt: skip
 _SQUARE, _POWER = ("square({})", 10, (1,)), ("{}**{}", 9, (10, 9))
+_REFUSING = {"div": ("per({},{})", 10, (1, 1)), "pow": ("refusing(pow({},{}))", 10, (1, 1))}
 _OF_TRUTH = {"where": 1, "and": 2, "or": 2, "not": 1, "sized": 0}  # so many operands are conditions
 
 
-def operation(op: str, operands: list[Text], conditions: list[bool]) -> Text:
-    """An operation on operands, which are told to be conditions or numbers; as a condition every number but 0 holds."""
+def operation(op: str, operands: list[Text], conditions: list[bool], refuses: bool = False) -> Text:
+    """An operation on operands, which are told to be conditions or numbers; as a condition every number but 0 holds.
+
+    Python's own ``refuses`` what would be infinite.
+    """
     for k in range(_OF_TRUTH.get(op, 0)):
         if not conditions[k]:
             operands[k] = Text(f"{operands[k].within(5)}!=0", 4)
     form, binding, needs = ELEMENTWISE[op]
-    if op == "pow" and _is_number(operands[1].text):
+    if refuses and op in _REFUSING and not (_is_number(operands[1].text) and float(operands[1].text) > 0):
+        form, binding, needs = _REFUSING[op]
+    elif op == "pow" and _is_number(operands[1].text):
         operands, (form, binding, needs) = (
             (operands[:1], _SQUARE) if operands[1].text == "2" else (operands, _POWER)
         )  # fmt: skip
@@ -51,7 +58,7 @@ def operation(op: str, operands: list[Text], conditions: list[bool]) -> Text:
 
 
 def _is_number(text: str) -> bool:
-    return text.strip("-")[0] in "0123456789."
+    return bool(re.fullmatch(r"-?[\d.]+(e-?\d+)?", text))
 
 
 def literal(value: Any) -> Text:

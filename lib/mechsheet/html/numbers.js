@@ -3,6 +3,9 @@
 const {abs, acos, asin, atan2, cos, exp, floor, log, max, min, sign, sin, sqrt, tan, trunc} = Math;
 const square = x => x * x;
 const pow = (x, y) => (x == 1 || (x == -1 && abs(y) == Infinity) ? 1 : x ** y);
+// What Python's own numbers have an error for.
+const per = (x, y) => (y == 0 ? NaN : x / y);
+const refusing = x => (abs(x) == Infinity ? NaN : x);
 const round = x => {
   const up = Math.round(x);
   return up - x == 0.5 && up % 2 ? up - 1 : up;

@@ -9,6 +9,7 @@ from operator import itemgetter
 from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Block, Node, bottom_up
+from mechsheet.quantities.refused import is_pythons
 from mechsheet.worksheet.errors import SheetError
 
 Size = tuple["int | Node", ...]  # lengths of all axes: numbers, and quantities of those that follow the inputs
@@ -272,7 +273,8 @@ class Scope:
         operands = [self._operand(operand, key, shape, places) for operand in _along(node)]
         if node.op == "at":
             return Text(f"pick({self.text(node.args[0])},{operands[0].text})")
-        return operation(node.op, operands, [operand.value.dtype == bool for operand in _along(node)])
+        conditions = [operand.value.dtype == bool for operand in _along(node)]
+        return operation(node.op, operands, conditions, is_pythons(self.program.graph, node))
 
     def _operand(self, node: Node, key: "Size | Node", shape: str, places: Mapping[Node, str]) -> Text:
         if node in places:

@@ -28,12 +28,14 @@ def turning() -> Iterator[None]:
 
 def _by_condition(length: Node) -> bool:
     """Whether a length is that of the elements for which a condition holds."""
-    waiting = [length]
+    waiting, seen = [length], set[Node]()
     while waiting:
         part = waiting.pop()
         if part.op == "reduce":
             return True
-        waiting += part.args if part.op in ELEMENTWISE else ()
+        if part not in seen and part.op in ELEMENTWISE:
+            seen.add(part)
+            waiting += part.args
     return False
 
 

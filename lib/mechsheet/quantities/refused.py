@@ -1,10 +1,11 @@
 """What Python has an error for, of some inputs: a comparison of it goes neither way there, where one of NaN would."""
 
 import sys
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import reduce
+from operator import and_
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -13,16 +14,16 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.lengths import unnoted
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, free_of
 from mechsheet.quantities.operations import COMPARISONS
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
 _DIVIDING = ("div", "pow", "mod")
-_ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs")
+_ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs", "max", "min", "round")
 _WHY = "it compares a number that does not exist for these inputs"
 _rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
+_told = ContextVar[list[Quantity] | None]("_told", default=None)  # what is noted in the turn of a loop
 
 
 @contextmanager
@@ -36,6 +37,30 @@ def each_row(graph: Graph, rows: Iterable[Node]) -> Iterator[None]:
         own = [holds for holds, guard in graph.looked.items() if guard.why == _WHY and not free_of(rows, [holds])]
         for holds in own:
             del graph.looked[holds]
+
+
+class Turn:
+    """A turn of a loop that also tells, behind its names, whether Python has compared none but numbers up to now."""
+
+    def __init__(self, turn: Callable[..., Any]) -> None:
+        self._own, self.tells = turn, False
+
+    def __call__(self, *state: Any) -> list[Any]:
+        *names, exists = state
+        after, told = self._taken(names)
+        self.tells |= bool(told)
+        return [*after, reduce(and_, told, exists)]
+
+    def untold(self, *names: Any) -> Any:
+        """The turn alone."""
+        return self._taken(names)[0]
+
+    def _taken(self, names: Iterable[Any]) -> tuple[Any, list[Quantity]]:
+        token = _told.set(told := list[Quantity]())
+        try:
+            return self._own(*names), told
+        finally:
+            _told.reset(token)
 
 
 def refused(value: Any) -> Any:
@@ -80,15 +105,22 @@ def _note(graph: Graph, node: Node, exists: Node) -> None:
 def compared(*operands: Quantity) -> None:
     """Note that Python compares what it may have an error for; the cells of a workbook have one themselves."""
     graph = operands[0].graph
-    if not graph.draws or unnoted.get():
+    if not graph.draws:
         return
     exist = [_exists(graph, part) for x in operands for part in x.parts]
     # Of other ways that are supposed nobody knows here when they are gone.
     if any(exist) and graph.supposed == _rows.get() + sum(not way.value for way in graph.ways):
         for each in filter(None, exist):
-            holds = on_ways(Quantity(graph, each)).re
-            if graph.sliders.isdisjoint(bottom_up([holds], ())):  # which go where the worksheet lets them
-                graph.see(holds, why=_WHY)
+            note(on_ways(Quantity(graph, each)))
+
+
+def note(exists: Quantity) -> None:
+    """Note that Python has no error where a condition holds, for all that is computed, or in a turn of a loop."""
+    if exists.graph.sliders.isdisjoint(bottom_up([exists.re], ())):  # which go where the worksheet lets them
+        if (told := _told.get()) is not None:
+            told.append(exists)
+        else:
+            exists.graph.see(exists.re, why=_WHY)
 
 
 def on_ways(holds: Quantity) -> Any:
@@ -100,7 +132,7 @@ def _exists(graph: Graph, node: Node) -> Node | None:
     """The condition under which Python has a number, where it may have an error for it."""
     known = graph.refused
     for each in bottom_up([node], known):
-        own = graph.fold("finite", each) if each.op in _DIVIDING and _is_pythons(graph, each) else None
+        own = graph.fold("finite", each) if each.op in _DIVIDING and is_pythons(graph, each) else None
         if each.value.dtype == bool:  # which compares, and was noted
             known[each] = None
         elif each.op == "where" and not each.args[0].shape:
@@ -112,12 +144,19 @@ def _exists(graph: Graph, node: Node) -> Node | None:
     return known[node]
 
 
-def _is_pythons(graph: Graph, node: Node) -> bool:
+def of_python(value: Any) -> Any:
+    """Numbers that a function of Python gives, and none of numpy."""
+    for each in quantities(value):
+        each.graph.pythons |= dict.fromkeys(each.parts if not each.ndim else (), True)
+    return value
+
+
+def is_pythons(graph: Graph, node: Node) -> bool:
     """Whether Python's own arithmetic makes a number of inputs: numpy's gives infinity for 1 / 0, Python an error."""
     known = graph.pythons
     for each in bottom_up([node], known):
-        made = each.op in _ARITHMETIC and all(known[operand] for operand in each.operands)
-        known[each] = not each.shape and (made or each.op in LEAVES)
+        of = each.operands if each.op in _ARITHMETIC else each.args[1:] if each.op == "where" else ()
+        known[each] = not each.shape and (each.op in LEAVES or (bool(of) and all(known[operand] for operand in of)))
     return known[node]
 
 

@@ -137,12 +137,14 @@ _REFUSED = ("div", "pow", "log", "exp")  # by Python, where one number of single
 
 def _of_arrays(node: Node) -> bool:
     """Whether a number is computed from elements of arrays, by numpy, which refuses nothing."""
-    waiting = [node]
+    waiting, seen = [node], set[Node]()
     while waiting:
         part = waiting.pop()
         if part.shape:
             return True
-        waiting += part.operands if part.op in ELEMENTWISE or part.op in _ELEMENTS else ()
+        if part not in seen and (part.op in ELEMENTWISE or part.op in _ELEMENTS):
+            seen.add(part)
+            waiting += part.operands
     return False
 
 

@@ -17,6 +17,7 @@ from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
+from mechsheet.quantities.refused import Turn, is_pythons, note, on_ways
 from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
 from mechsheet.recording.in_place import of_now
 
@@ -106,6 +107,16 @@ _PUT: dict[str, tuple[Callable[[Any, Any], Any], int]] = {"sum": (operator.add, 
 
 @turning()
 def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
+    """The same. A page also needs to know that Python has no error in any turn."""
+    if not current.get().draws:
+        return _followed(turn, items, item, *state)
+    *found, exists = _followed(Turn(turn), items, item, *state, True)
+    if isinstance(exists, Quantity):
+        note(on_ways(exists))
+    return tuple(found)
+
+
+def _followed(turn: Callable[..., Any], items: Any, item: int | None, *state: Any) -> Any:
     """The same. Where a quantity decides about the end, readers repeat the turns for the inputs that they have."""
     if isinstance(items, Turns):
         return _counted(turn, items, item or 0, state)
@@ -151,8 +162,9 @@ def _counted(turn: Callable[..., Any], turns: Turns, item: int, first: tuple[Any
         now = _taken(turn, turns, item, first)
     if not found:
         return now if some.value else first
-    given = [np.nan if x is UNBOUND else x for x in first]
-    return tuple(where(graph, some, x, lift(graph, y).like(x)) for x, y in zip(found, given, strict=True))
+    given = [lift(graph, np.nan if x is UNBOUND else x) for x in first]
+    ways = zip(found, given, strict=True)
+    return tuple(x if x.parts == y.parts else where(graph, some, x, y.like(x)) for x, y in ways)
 
 
 def _taken(turn: Callable[..., Any], turns: Turns, item: int, state: tuple[Any, ...]) -> tuple[Any, ...]:
@@ -181,7 +193,7 @@ def _supposed(turn: Callable[..., Any], turns: Turns, item: int, state: tuple[An
 
 
 def _one_by_one(
-    turn: FunctionType, items: Sequence[Any], item: int, first: tuple[Any, ...], looked: dict[Node, Guard]
+    turn: Callable[..., Any], items: Sequence[Any], item: int, first: tuple[Any, ...], looked: dict[Node, Guard]
 ) -> tuple[Any, ...] | None:
     """What a loop over a list gives, by all its turns, of which one behind the end changes nothing.
 
@@ -247,6 +259,8 @@ def _repeated(
     like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
     initial = _parts(begin, like)
     nodes = [graph.state(node) for node in initial]
+    for node, *both in zip(nodes, initial, _parts(end, like), strict=True) if graph.draws else ():
+        graph.pythons[node] = all(is_pythons(graph, each) for each in both)
     *state, number = _whole(graph, nodes, like)
     now, numbered = graph.looked, graph.numbered
     graph.looked, graph.numbered = {}, {}
@@ -265,6 +279,11 @@ def _repeated(
         return None
     if any(a.im is not None and b.im is None for a, b in zip(made, like, strict=True)):
         return None
+    if silent := isinstance(turn, Turn) and not turn.tells:
+        turn = turn.untold  # nobody asks for what is always so
+        for each in begin, end, like, made, nodes:  # of which a single number stands behind it
+            del each[-2]
+        initial = _parts(begin, like)
     graph.looked = looked | inside
     most = None if item is None or isinstance(items, Turns) else len(items)
     loop = Loop(nodes, initial, _parts(made, like), ends.re, most)
@@ -276,7 +295,7 @@ def _repeated(
         graph.see(lift(graph, ended).re, turns=True)
     turns = [where(graph, ended, Quantity(graph, node), np.nan).re for node in _parts(state, like[:-1])]
     found = [graph.iterated(loop, k, node) for k, node in enumerate(turns)]
-    return tuple(_whole(graph, found, like[:-1]))
+    return (*_whole(graph, found, like[:-1]), *[lift(graph, True)] * silent)
 
 
 def _turned(turn: Callable[..., Any], items: Any, item: int | None, number: Any, state: list[Quantity]) -> Any:
@@ -284,7 +303,11 @@ def _turned(turn: Callable[..., Any], items: Any, item: int | None, number: Any,
     if item is None:
         return turn(*state)
     if not isinstance(items, Turns):
-        return turn(*state[:item], lift(current.get(), items)[number], *state[item + 1 :])
+        graph = current.get()
+        element = lift(graph, items)[number]
+        if isinstance(items, range | list | tuple):
+            graph.pythons |= dict.fromkeys(element.parts, True)
+        return turn(*state[:item], element, *state[item + 1 :])
     ends, *after = turn(*state[:item], items.of(number), *state[item + 1 :])
     return [ends | items.end(number), *after]
 

@@ -27,6 +27,7 @@ from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, 
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
+from mechsheet.quantities.refused import of_python
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
@@ -92,7 +93,8 @@ def instead(value: Any) -> Any:
     if (refusing := instead_of_chance(value)) is not None:
         return refusing
     if isinstance(value, BuiltinFunctionType) and value in MATH:
-        return _takes(MATH[value], value)
+        own = _takes(MATH[value], value)
+        return lambda *args, **kwargs: of_python(own(*args, **kwargs))
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
     if value is np.vectorize:
