@@ -96,7 +96,12 @@ MADE = {
     "of a function of math": "1 / (1 + 1 / math.sin(g.x))",
     "of the greatest": "1 / (1 + 1 / max(g.x, 0.0))",
     "a sum": "sum(1 / (1 + 1 / (z - g.x)) for z in (1.5, 3.0, 0.0))",
+    "one that numpy does not choose": "np.where(g.x == 0, 0.0, g.u / g.x).item()",
+    "one of several": "np.select([g.x > 5, g.x == 0], [1.0, 2.0], g.u / g.x).item()",
+    "a root that numpy does not choose": "np.where(g.x < 0, 0.0, math.sqrt(g.x)).item()",
+    "a bare condition": "np.where(1 / g.x, 3.0, g.u).item()",
     "one asked for first": "g.u / g.x if g.x else 0.0",
+    "numpy's own": "np.where(g.x < 0, 0.0, np.sqrt(g.x + 0.1)).item()",
     "elements of an array": "float(np.sum(1 / (1 + 1 / (np.array(SIZES) - g.x))))",
 }
 # The same where Python asks first, or has a number in its place: there is one for all inputs.
@@ -130,10 +135,11 @@ def test_a_page_shows_no_number_that_is_made_of_one_for_which_python_has_an_erro
     )
     recording = recorded(sheet, every=1, draws=True, lists=True)
     nodes = {n: recording.tables[name][0].re for n, name in enumerate(names)}
-    found = by_page(blank, sheet, recording, nodes, {n: [] for n in nodes})
+    looked = {n: [guard.holds for guard in recording.looked[f"z{name}"]] for n, name in enumerate(names)}
+    found = by_page(blank, sheet, recording, nodes, looked)
     for n, (name, own) in enumerate(zip(MADE, every, strict=True)):
         np.testing.assert_allclose([shown.get(n, np.nan) for shown in found], own, err_msg=name)
-        assert np.isnan(own).any() == (name not in ("one asked for first", "elements of an array"))
+        assert np.isnan(own).any() == (name not in ("one asked for first", "numpy's own", "elements of an array"))
 
 
 @pytest.mark.parametrize("loop", IN_TURNS.values(), ids=IN_TURNS)
@@ -218,7 +224,7 @@ def test_why_there_is_none_is_told(tmp_path: Path) -> None:
     sheet = sheet_of(tmp_path, [*NOT_THERE["an element of an array"], "y_0 = 3.0 if c else g.u"])
     recording = recorded(sheet, every=1, draws=True, lists=True)
     (guard,) = recording.guards.values()
-    assert javascript.otherwise(guard).endswith("it compares a number that does not exist for these inputs")
+    assert javascript.otherwise(guard).endswith("it needs a number that does not exist for these inputs")
 
 
 def test_that_lists_are_not_as_long_as_each_other_is_told(tmp_path: Path) -> None:

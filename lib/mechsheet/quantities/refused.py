@@ -21,7 +21,7 @@ from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
 _DIVIDING = ("div", "pow", "mod")
 _ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs", "max", "min", "round")
-_WHY = "it compares a number that does not exist for these inputs"
+_WHY = "it needs a number that does not exist for these inputs"
 _rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
 _told = ContextVar[list[Quantity] | None]("_told", default=None)  # what is noted in the turn of a loop
 
@@ -103,7 +103,7 @@ def _note(graph: Graph, node: Node, exists: Node) -> None:
 
 
 def compared(*operands: Quantity) -> None:
-    """Note that Python compares what it may have an error for; the cells of a workbook have one themselves."""
+    """Note that Python needs what it may have an error for; the cells of a workbook have one themselves."""
     graph = operands[0].graph
     if not graph.draws:
         return
@@ -155,7 +155,8 @@ def is_pythons(graph: Graph, node: Node) -> bool:
     """Whether Python's own arithmetic makes a number of inputs: numpy's gives infinity for 1 / 0, Python an error."""
     known = graph.pythons
     for each in bottom_up([node], known):
-        of = each.operands if each.op in _ARITHMETIC else each.args[1:] if each.op == "where" else ()
+        made = each.op in _ARITHMETIC or each.value.dtype == bool
+        of = each.args[1:] if each.op == "where" else each.operands if made else ()
         known[each] = not each.shape and (each.op in LEAVES or (bool(of) and all(known[operand] for operand in of)))
     return known[node]
 

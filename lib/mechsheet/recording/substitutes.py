@@ -26,8 +26,8 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
-from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
-from mechsheet.quantities.refused import of_python
+from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
+from mechsheet.quantities.refused import compared, of_library, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
@@ -45,6 +45,7 @@ _ASKING = check.__name__, find.__name__, system.__name__  # modules that hand on
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _GONE_THROUGH = (GeneratorType, map, filter)  # once, to whoever asks
+_CHOOSING = (np.where, np.select)  # among numbers which all are computed before
 _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray, np.fromiter)
 
 
@@ -299,6 +300,8 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
             return linspace(current.get(), *args, **{"count" if k == "num" else k: v for k, v in kwargs.items()})
         if not has_quantity([*args, *kwargs.values()]):
             return (plainly or f)(*args, **kwargs)
+        if f in _CHOOSING and not of_library(sys._getframe(1)):
+            compared(*quantities(args))
         if f in _ARRAYS:
             return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
         if f in (np.zeros, np.ones, np.empty, np.full):
