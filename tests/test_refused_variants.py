@@ -38,11 +38,28 @@ def test_an_error_of_some_numbers_is_the_reason_of_their_variant(lines: str, tmp
             )
 
 
-def test_what_python_refuses_of_a_number_alone_is_not_infinite_among_others(tmp_path: Path) -> None:
-    """As far as it is one of those that are tried alone."""
-    sheet = own(tmp_path, "y = 1.0 / (g.F - 4.0)\nresult = y * 1.0  # [-] line")
-    swept = sweep(sheet.path, ["result"], {"F": [4.0, 1.0, 2.5, 3.0]})
-    assert list(swept.solved) == [False, True, True, True] and "float division by zero" in swept.reasons[0]
+@pytest.mark.parametrize(
+    "y", ["1 / (g.F - 4)", "1 / (2 + 1 / (g.F - 4))", "sum(1 / (1 + 1 / (z - g.F)) for z in (4, 5.5))"]
+)
+def test_what_python_refuses_of_a_number_alone_is_not_infinite_among_others(y: str, tmp_path: Path) -> None:
+    """Wherever it stands: one over infinity was 0 there, without a word."""
+    sheet = own(tmp_path, f"y = {y}\nresult = y * 1.0  # [-] line")
+    for n, k in ((4, 0), (300, 133), (5000, 4321)):
+        F = np.linspace(1, 3, n)
+        F[k] = 4
+        swept = sweep(sheet.path, ["result"], {"F": F})
+        assert swept.at_once and list(np.flatnonzero(~swept.solved)) == [k]
+        assert "division by zero" in swept.reasons[k]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_what_numpy_makes_infinite_is_so_among_others_too(tmp_path: Path) -> None:
+    """In elements of arrays, which Python does not refuse."""
+    sheet = own(tmp_path, "result = 1 / (1 + 1 / (np.array([4.0]) - g.F)).sum()  # [-] line")
+    F = np.linspace(1, 3, 300)
+    F[[133, 250]] = 4
+    swept = sweep(sheet.path, ["result"], {"F": F})
+    assert swept.solved.all() and swept["result"][133] == 0 == evaluate(sheet.path, ["result"], F=4.0)["result"]
 
 
 def test_a_mistake_whatever_the_numbers_are_ends_the_sweep(tmp_path: Path) -> None:

@@ -1,11 +1,9 @@
-"""The work of a sweep: what is done with a chunk of variants, in this process or on executors, and broken ones."""
+"""The work of a sweep: what is done with a chunk of variants."""
 
 import hashlib
-import warnings
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import FunctionType
@@ -27,10 +25,8 @@ from mechsheet.worksheet.verdict import Verdict, listen, values_only
 if TYPE_CHECKING:
     from mechsheet.recording.variants import Known
 
-_AHEAD = 256  # chunks handed to an executor and not yet taken back: bounds the memory of results that wait
 _WAYS = 8  # recordings that are kept
 _ALIKE = 1e-9  # of the greatest value: a variant among others and alone differ by rounding
-_BREAKS = 3  # times that an executor may break in a row without one chunk done
 
 
 @dataclass(frozen=True)
@@ -48,7 +44,8 @@ class Job:
 
     The variants of a chunk are run at once, or one by one as single numbers. Then what recordings of a few of them know
     is computed by these: ``recorded`` has for each the values of the inputs that vary. Of one alone ``numbers`` are the
-    results that are numbers, such as a mean over the positions, which among others has no axis of positions left.
+    results that are numbers, such as a mean over the positions, which among others has no axis of positions left. With
+    ``refusing`` no variant divides by zero alone: where some do among others, Python has an error for their numbers.
     """
 
     path: str
@@ -57,6 +54,7 @@ class Job:
     at_once: bool
     numbers: frozenset[str] = frozenset()
     recorded: tuple[tuple[float, ...], ...] = ()
+    refusing: bool = False
 
     def results(self, columns: Mapping[str, Any]) -> Part:
         if self.recorded:
@@ -70,12 +68,15 @@ class Job:
             return np.concatenate([self._reasons(one) for one in one_by_one(columns)])
         return self._reasons(columns)
 
-    @np.errstate(all="ignore")  # what has no value is NaN here, and no reason for a warning
     @values_only()
     def run(self, columns: Mapping[str, Any]) -> Part:
         """Results of variants all of which run to the end; any error is raised."""
-        with _emptied() as names:
+        with self._quietly(columns), _emptied() as names:
             return self._run_in(names, columns)
+
+    def _quietly(self, columns: Mapping[str, Any]) -> np.errstate:
+        """What has no value is NaN here, and no reason for a warning."""
+        return np.errstate(all="ignore", divide="raise" if self.refusing and varied(columns) else "ignore")
 
     def _run_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> Part:
         sheet, count = self._sheet(), _count(columns)
@@ -96,15 +97,39 @@ class Job:
         lines = registry(names)
         return Part(values, lacking, {name: lines[base(name)].unit for name in self.want if base(name) in lines})
 
-    def _tried(self, columns: Mapping[str, Any]) -> Part:
+    def _tried(self, columns: Mapping[str, Any], surely: bool = False) -> Part:
+        """Results of variants one of which may have an error, ``surely`` where any of them divides by zero."""
         try:
             return self.run(columns)
         except _Changed:
             raise
+        except FloatingPointError:
+            if _count(columns) == 1:
+                return self._tried(next(one_by_one(columns)))
+            if not surely and not self._is_refused(columns):
+                return replace(self, refusing=False)._tried(columns)
+            surely = True
         except OF_NUMBERS:
             if _count(columns) == 1 or self._in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
-            return _joined([self._tried(half) for half in _halves(columns)])
+        return _joined([self._tried(half, surely) for half in _halves(columns)])
+
+    def _is_refused(self, columns: Mapping[str, Any]) -> bool:
+        """Whether a variant has an error alone that divides by zero among others: elements of its arrays may, too."""
+        while _count(columns) > 1:
+            first, second = _halves(columns)
+            columns = first if self.divides(first) else second
+        return bool(self._tried(columns).lacking[0])
+
+    def divides(self, columns: Mapping[str, Any]) -> bool:
+        """Whether variants divide by zero."""
+        try:
+            replace(self, refusing=True).run(columns)
+        except FloatingPointError:
+            return True
+        except Exception:  # whatever a line does that cannot take an array
+            return False
+        return False
 
     def _by_recording(self, columns: Mapping[str, Any]) -> Part:
         """What recordings of a few variants know of these; those that none knows run alone."""
@@ -150,9 +175,8 @@ class Job:
             raise NotPlanned("its own numbers are others")
         return way
 
-    @np.errstate(all="ignore")
     def _reasons(self, columns: Mapping[str, Any]) -> NDArray[np.object_]:
-        with _emptied() as names:
+        with self._quietly(columns), _emptied() as names:
             return self._reasons_in(names, columns)
 
     def _reasons_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> NDArray[np.object_]:
@@ -174,6 +198,8 @@ class Job:
         except OF_NUMBERS as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
+            if isinstance(error, FloatingPointError):  # of which Python has its own words
+                return self._reasons(next(one_by_one(columns)))
             add(mistakes.reason(error, self.path))
         among = count if varied(columns) else None
         for name in (name for cell in cells for name in cell.gives):
@@ -412,39 +438,3 @@ def same_shape(name: str, a: NDArray[Any], b: NDArray[Any]) -> None:
 
 def digest(path: str) -> str:
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()
-
-
-def computed(
-    work: Callable[[Mapping[str, Any]], Any],
-    at: Callable[[NDArray[np.intp]], Mapping[str, Any]],
-    chunks: Sequence[NDArray[np.intp]],
-    executor: Executor | Callable[[], Executor] | None,
-) -> Iterator[tuple[int, Any]]:
-    """Number and result of each chunk of rows, in the order in which they are done; ``at`` gives its inputs."""
-    left = deque(range(len(chunks)))
-    breaks = 0
-    while left and executor is not None:
-        with executor() if callable(executor) else nullcontext(executor) as pool:
-            running: dict[Future[Any], int] = {}
-            try:
-                while left or running:
-                    while left and len(running) < _AHEAD:
-                        future = pool.submit(work, at(chunks[left[0]]))
-                        running[future] = left.popleft()
-                    for future in wait(running, return_when=FIRST_COMPLETED).done:
-                        result = future.result()
-                        yield running.pop(future), result
-                        breaks = 0
-            except BrokenExecutor as error:
-                left.extendleft(running.values())
-                breaks += 1
-                if breaks == _BREAKS:
-                    raise RuntimeError(f"the executor broke {breaks} times without one chunk done: {error}") from error
-                if not callable(executor):
-                    warnings.warn(f"the executor broke, {len(left)} chunks are computed here", RuntimeWarning, 3)
-                    executor = None
-            finally:
-                for future in running:
-                    future.cancel()
-    for i in left:
-        yield i, work(at(chunks[i]))

@@ -20,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.run.progress import on_terminal
 from mechsheet.run.silent import silently
-from mechsheet.studies.chunks import Job, Part, alike, computed, digest, one_by_one, same_shape, varied
+from mechsheet.studies.chunks import Job, Part, alike, digest, one_by_one, same_shape, varied
+from mechsheet.studies.executed import computed
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
@@ -271,6 +272,7 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
     all_at_once = replace(job, numbers=frozenset(numbers))
     together = [*ran] if len(ran) > 1 else [*tried]
+    all_at_once = replace(all_at_once, refusing=not all_at_once.divides(given.at(np.array([*ran]))))
     try:
         among = all_at_once.run(given.at(np.array(together)))
         if refused.size and not _is_refused(all_at_once, given, refused):
