@@ -65,6 +65,16 @@ def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_pat
     assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
 
 
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_lines_that_have_no_number_any_more_are_named(blank: Page, tmp_path: Path) -> None:
+    """Beside what is changed, for they may stand anywhere; what has none for the document's own inputs is no news."""
+    lines = "c = 1 / (1 / g.F + 1 / g.a)  # [-] in series\nd = c * x  # [-] field\ne = np.log(x - 1)  # [-] part of it"
+    sheet = own(tmp_path, lines)
+    for F, told in ((0, "changed: F; no number for these inputs: c, d"), (2, "changed: F")):
+        shown(blank, tmp_path / "a.html", sheet, f"F={F}")
+        expect(blank.locator(".ms-state")).to_have_text(told)
+
+
 COUNTED = """k = len("ab" if g.a < 1 else "a")  # [-] counted by Python
 z = 3 - k  # [-] of it alone
 w = x * k + z  # [-] field with it

@@ -299,8 +299,18 @@ function lacking(results) {
     const why = broken(spec, results) ?? gapOf(spec, results), name = nameOf(spec, shownBy[n]);
     if (why && name) found.set(why, (found.get(why) ?? new Set()).add(name));
   });
-  return [...found].map(([why, names]) => (names.size ? `not known: ${listed([...names])} (${why})` : why));
+  ofOwn ??= numberless(evaluate({}));
+  const none = [...numberless(results)].filter(name => !ofOwn.has(name));
+  return [...found].map(([why, names]) => (names.size ? `not known: ${listed([...names])} (${why})` : why))
+    .concat(none.length ? `no number for these inputs: ${listed(none)}` : []);
 }
+
+// Names of the lines that have none somewhere, first those at which numbers get lost; of the document's own inputs.
+const numberless = results => new Set(told.shown.flatMap((spec, n) => {
+  const lost = spec.kind === "value" && spec.keys?.some(key => elements(results.values[key] ?? []).some(x => x !== x));
+  return lost ? nameOf(spec, shownBy[n]) : [];
+}));
+let ofOwn;
 
 const nameOf = (spec, element) => spec.of ?? (spec.title && element.querySelector(".ms-name")?.textContent) ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent;
 const listed = names => names.slice(0, LISTED).join(", ") + (names.length > LISTED ? ` and ${names.length - LISTED} more` : "");
