@@ -343,6 +343,42 @@ def test_the_workbook_has_no_number_for_what_is_no_option_and_under_a_text_that_
             reading.inputs(path, inputs.declared(load(bolt).inputs))
 
 
+@pytest.mark.parametrize(
+    ("value", "unit", "said"),
+    [
+        (900, "MPa", r"cell B\d+: tensile strength grade.R_m \(8.8\) = 900.0 MPa, which the worksheet has as 800.0"),
+        ("strong", "MPa", "= 'strong' MPa is no number"),
+        (0.8, "GPa", ""),
+        ("800,0", "MPa", ""),
+    ],
+)
+def test_a_property_of_an_option_that_is_another_in_a_workbook_is_told(
+    value: object, unit: str, said: str, bolt: Path, tmp_path: Path
+) -> None:
+    """The workbook computed with it, and a run of that workbook with the worksheet's own, without a word."""
+    assert script(bolt, f"--out={tmp_path}").returncode == 0
+    name = "grade.R_m (8.8)"
+    path = edit(tmp_path / "bolt.xlsx", {name: value, "F": 6.0}, tmp_path / "edited.xlsx", {name: unit})
+    declared = inputs.declared(load(bolt).inputs)
+    if said:
+        with pytest.raises(SheetError, match=said):
+            reading.inputs(path, declared)
+    else:
+        assert reading.inputs(path, declared)["F"] == 6.0
+
+
+def test_a_text_of_an_option_that_is_another_in_a_workbook_is_told(tmp_path: Path) -> None:
+    sheet = tmp_path / "bolt.py"
+    labelled = SHEET.replace("        R_m: float", "        made: str  # way\n        R_m: float", 1)
+    sheet.write_text(labelled.replace("Grade(", 'Grade("cold", '), encoding="utf-8")
+    assert script(sheet, f"--out={tmp_path}").returncode == 0
+    declared = inputs.declared(load(sheet).inputs)
+    assert reading.inputs(tmp_path / "bolt.xlsx", declared)["grade"] == "8.8"
+    path = edit(tmp_path / "bolt.xlsx", {"grade.made (8.8)": "hot"}, tmp_path / "edited.xlsx")
+    with pytest.raises(SheetError, match=r"way grade.made \(8.8\) = hot, which the worksheet has as cold"):
+        reading.inputs(path, declared)
+
+
 def test_inputs_in_the_meanings_of_inputs_are_symbols(tmp_path):
     """On the page and in the page in one file, where they are edited and where they are printed; M8 is no input."""
     path = tmp_path / "lengths.py"

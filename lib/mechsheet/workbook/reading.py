@@ -1,10 +1,11 @@
 """An exported workbook read back: the sheet of its inputs, edited in Excel or LibreOffice, is a scene."""
 
+import math
 import warnings
 from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from itertools import islice, product
+from itertools import islice
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -40,26 +41,32 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
     tables = [field for field in declared if isinstance(field, Rows)]
     fields = {field.name: field for field in declared if not isinstance(field, Rows)}
     with _book(path, values=True) as book:
-        found = _listed(path, _rows(path, book, _SHEET), fields, [*_told_elsewhere(declared)])
+        found = _listed(path, _rows(path, book, _SHEET), fields, {t.name for t in tables}, _properties(declared))
         if tables and _TABLES in book.sheetnames:
             found |= _of_tables(path, _rows(path, book, _TABLES), tables)
     return found
 
 
-def _told_elsewhere(declared: Sequence[Input]) -> Iterator[str]:
-    """Names on the sheet Inputs that are none to be read there: of tables, and of the properties of options."""
-    for field in declared:
-        if isinstance(field, Choice):
-            for each, option in product(field.properties, field.options):
-                yield f"{field.name}.{each.name} ({option})"
-        elif isinstance(field, Rows):
-            yield field.name
+def _properties(declared: Sequence[Input]) -> dict[str, tuple[Input, Any]]:
+    """Properties of options by their names on the sheet Inputs, with what the worksheet has for each, in its unit."""
+    choices = (field for field in declared if isinstance(field, Choice))
+    columns = ((field, *column) for field in choices for column in field.columns())
+    named = (
+        (replace(each, name=f"{field.name}.{each.name} ({option})"), own)
+        for field, each, values in columns
+        for option, own in zip(field.options, values, strict=True)
+    )
+    return {each.name: (each, each.display(own)) for each, own in named}
 
 
 def _listed(
-    path: Path, rows: Iterator[_Row], fields: Mapping[str, Input], elsewhere: Container[str]
+    path: Path,
+    rows: Iterator[_Row],
+    fields: Mapping[str, Input],
+    tables: Container[str],
+    properties: Mapping[str, tuple[Input, Any]],
 ) -> dict[str, object]:
-    """Inputs of the sheet Inputs, one a row."""
+    """Inputs of the sheet Inputs, one a row; the ``properties`` of options must be those of the worksheet."""
     found, places = dict[str, object](), dict[str, str]()
     columns = _columns(path, rows)
     for number, row in rows:
@@ -70,9 +77,17 @@ def _listed(
             if len(found) == len(fields) and not name:
                 break
             continue  # an empty row, the heading of a section, or the line of a table
-        if name in elsewhere and name.endswith(")"):
+        cell, unit_cell = (_Cell(path, _SHEET, number, column) for column in columns[1:])
+        if name in properties:
+            each, own = properties[name]
+            given = each.read(_read(each, value, _text(unit), cell, unit_cell))
+            if not (given == own if each.is_text else math.isclose(given, own, rel_tol=1e-14)):
+                raise SheetError(
+                    f"{cell}: {each.says(given)}, which the worksheet has as {own}: properties of options are changed "
+                    "there; a row that is taken out keeps them"
+                )
             continue
-        if name in elsewhere:
+        if name in tables:
             raise SheetError(f"{_at(path, at[1])}: the rows of {name} stand on the sheet {_TABLES}")
         if name not in fields:
             near = nearest(name, fields, 3, cutoff=0.5)
@@ -81,8 +96,7 @@ def _listed(
         if name in places:
             raise SheetError(f"{_at(path, at[0])}: {name} stands in {places[name]} already")
         places[name] = at[0]
-        cell = _Cell(path, _SHEET, number, columns[1])
-        found[name] = _read(fields[name], value, _text(unit), cell, _Cell(path, _SHEET, number, columns[2]))
+        found[name] = _read(fields[name], value, _text(unit), cell, unit_cell)
     return found
 
 
