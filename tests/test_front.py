@@ -288,3 +288,53 @@ def test_where_cells_compare_what_they_compute_it_says_how(tmp_path: Path) -> No
         path.write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
         cells = [cell.value for (cell, *_) in load_workbook(path)["Front"].iter_rows()]
         assert sum("differ in their last digits" in str(text) for text in cells) == told, line
+
+
+def forms(sheet: Any, address: str) -> list[tuple[str, str]]:
+    """Conditions and number formats of the first cell of a range, the first that holds prevailing."""
+    every = (rule for cells in sheet.conditional_formatting if address in cells for rule in cells.rules)
+    rules = sorted((rule for rule in every if rule.type == "expression"), key=lambda rule: rule.priority)
+    return [(f"={rule.formula[0]}", rule.dxf.numFmt.formatCode) for rule in rules]
+
+
+def test_numbers_of_another_size_are_legible(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """Those too long for their cells stood there as ###, and small ones as 0.000; the last row has no number."""
+    lines = """y = np.where(x == x[-1], np.nan, x)  # [-] field
+z = 3 * g.F  # [kN] alone
+table_2 = table("2", "Own", y)
+figure_2 = figure("2", "Own", x, y)"""
+    sheet = own(tmp_path, lines)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": str(sheet.path)}
+    (tmp_path / "own.xlsx").write_bytes(report.workbook("Own", names, {}))
+    expected = {
+        2.5: ("0.0000", "0.0000", "0.000000"),
+        1e7: ("0", "0", "0"),
+        -1e14: ("0.0E+00", "0.00E+00", "0.00E+00"),
+        1e-2: ("0.0000", "0.0000", "0.000000"),
+        1e-5: ("0.0E+00", "0.00E+00", "0.00E+00"),
+        0.0: ("0.0000", "0.0000", "0.000000"),
+    }
+    edited = list[Path]()
+    for F in expected:
+        book = load_workbook(tmp_path / "own.xlsx")
+        rows = {cells[0].value: cells[0].row for cells in book["Front"].iter_rows(min_row=5)}
+        places = ("2 Own", "A5"), ("Front", f"B{rows['y']}"), ("Front", f"B{rows['z']}")
+        known = [forms(book[title], address) for title, address in places]
+        for n, ((title, _), rules) in enumerate(zip(places, known, strict=True)):
+            for row, (condition, _) in enumerate(rules, 1):
+                book[title].cell(row, 20 + n).value = condition
+        assert book["Inputs"]["A3"].value == "F"
+        book["Inputs"]["B3"].value = F
+        book.save(tmp_path / f"{F}.xlsx")
+        edited.append(tmp_path / f"{F}.xlsx")
+    for said, book in zip(expected.values(), recalculated_all(edited), strict=True):
+        for n, ((title, address), rules, form) in enumerate(zip(places, known, said, strict=True)):
+            holding = (look for row, (_, look) in enumerate(rules, 1) if book[title].cell(row, 20 + n).value is True)
+            assert next(holding, book[title][address].number_format) == form, (title, book[title][address].value)
+
+
+def test_the_verdict_has_room_for_all_its_words(hitch: Path) -> None:
+    """White on red, what went beyond the first column was not to be read."""
+    assert "A2:E2" in opened(hitch)["Front"].merged_cells

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet import units
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, bottom_up
-from mechsheet.workbook import looks
+from mechsheet.workbook import looks, sizes
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
 from mechsheet.workbook.chart import Listed
@@ -17,9 +17,11 @@ from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.table import Column
 
 _NAME = "Front"
 _WIDTHS = (200, 95, 95, 60, 230)
+_ROOM = 11  # characters for which a number's cell has room
 _GREY = "Grey cells hold for the exported inputs only, and show #N/A otherwise."
 _SEARCHED = "Found values are searched by their cells: #N/A where it is not sure that the worksheet finds the same."
 _COMPARED = (
@@ -39,6 +41,7 @@ class Result(NamedTuple):
     meaning: Content
     look: looks.Look
     grey: bool = False  # holds for the exported inputs only
+    column: Column | None = None  # of which they are the least and the greatest
 
 
 def add(book: Book) -> Any:
@@ -55,7 +58,9 @@ def write(
     known: Recording | None,
 ) -> None:
     """Fill the sheet, when all others are there; the recording ``known`` says what is not followed."""
-    put(sheet, 1, 0, _verdict(checks, found), book.style({"bold": True, "align": "left"}))
+    bold = book.style({"bold": True, "align": "left"})
+    sheet.merge_range(1, 0, 1, len(_WIDTHS) - 1, "", bold)  # white on red, it is seen on its own ground alone
+    put(sheet, 1, 0, _verdict(checks, found), bold)
     for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
         rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
         sheet.conditional_format(1, 0, 1, 0, rule)
@@ -68,6 +73,10 @@ def write(
         side = (looks.TEXT, number, number if len(result.values) > 1 else looks.NUMBER, looks.TEXT)
         for col, (value, look) in enumerate(zip(cells, side, strict=True)):
             put(sheet, row, col, value, book.style(looks.CELL, look))
+        if result.column:
+            sizes.follow(book, sheet, (row, 1, row, 2), result.column, _ROOM)
+        else:
+            sizes.alone(book, sheet, row, 1, looks.VALUE_DECIMALS, _ROOM)
         row = _text(book, sheet, row, 4, result.meaning)
     row = _block(book, sheet, row + bool(results), ("Contents", "", "", "", ""))
     for name, title in book.contents[1:]:
@@ -143,7 +152,7 @@ def _shown(drawn: Sequence[Listed]) -> Iterator[Result]:
             look = {**looks.NUMBER, "num_format": column.number_format}
             meaning = f"{column.meaning}, {source}" if column.meaning else source
             told = _lacking(meaning, cells, len(column.values), len(numbers))
-            yield Result(column.symbol, tuple(ends), column.unit, told, look, at.column in grey)
+            yield Result(column.symbol, tuple(ends), column.unit, told, look, at.column in grey, column)
 
 
 def _lacking(meaning: str, cells: str, rows: int, count: int) -> Live:

@@ -14,7 +14,8 @@ CELL: Look = {"bottom": 4, "bottom_color": "#C8C8C8"}
 TEXT: Look = {"align": "left", "indent": 1, "text_wrap": True}
 NUMBER: Look = {"align": "right"}
 FIELD: Look = {**NUMBER, "bg_color": "#FFF8D6", "border": 4, "border_color": RULE}
-VALUE: Look = {**NUMBER, "num_format": "0.000000"}
+VALUE_DECIMALS = 6
+VALUE: Look = {**NUMBER, "num_format": f"0.{'0' * VALUE_DECIMALS}"}
 SMALL: Look = {**NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
 QUANTITY: Look = {**NUMBER, "num_format": "[>=100]0;[>=0.01]0.000;General"}  # of any size
 AT_LEAST: Look = {**NUMBER, "num_format": '[>=100]"≥ "0;[>=0.01]"≥ "0.000;"≥ "General'}

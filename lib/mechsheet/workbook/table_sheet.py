@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from mechsheet.units import shown
-from mechsheet.workbook import looks
+from mechsheet.workbook import looks, sizes
 from mechsheet.workbook.book import Book, page_of
-from mechsheet.workbook.content import Content, allowed, computed, put
+from mechsheet.workbook.content import Content, Live, allowed, computed, put
 from mechsheet.workbook.looks import CHAR, EMPTY, FIRST, GAP, LONG, PAD, ROW
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet.table import Column, Table
@@ -53,7 +53,7 @@ def write(
 ) -> tuple[Any, list[Spot]]:
     """A sheet of numbers under their symbols and units, ``grey`` columns apart, and the places of charts on it."""
     rows = max(len(column.values) for column, _ in columns)
-    widths = [CHAR * (13 if numbers else min(looks.WIDEST, _digits(column))) + PAD for column, _ in columns]
+    widths = [CHAR * (13 if numbers else _room(column)) + PAD for column, _ in columns]
     sheet, spots = (_short if rows <= LONG else _long)(book, name, heading, widths, rows, charts, behind)
     sheet.set_row_pixels(1, ROW if note else ROW // 3)
     put(sheet, 1, 0, note, book.style(looks.NOTE))
@@ -68,6 +68,8 @@ def write(
         style, last = book.style(look, looks.CELL), book.style(look, looks.BOTTOM)
         for row, value in enumerate(cells, FIRST):
             put(sheet, row, col, value, style if row < FIRST + rows - 1 else last)
+        if numbers is None and cells and isinstance(cells[0], Live):
+            sizes.follow(book, sheet, (FIRST, col, FIRST + rows - 1, col), column, _room(column))
     return sheet, spots
 
 
@@ -115,6 +117,6 @@ def _break(sheet: Any, wide: int, rows: int) -> int:
     return held
 
 
-def _digits(column: Column) -> int:
-    """Characters of the widest cell."""
-    return max(6, len(column.symbol), len(column.unit), *map(len, column.texts()))
+def _room(column: Column) -> int:
+    """Characters for which its cells have room."""
+    return min(looks.WIDEST, max(7, len(column.symbol), len(column.unit), *map(len, column.texts())))

@@ -1,0 +1,50 @@
+"""Numbers of another size than the exported ones: what a cell has no room or no digits for is written otherwise."""
+
+from typing import Any
+
+from mechsheet.workbook.book import Book
+from mechsheet.workbook.cell_formula import AGGREGATE, written
+from mechsheet.workbook.place import letters
+from mechsheet.worksheet.table import Column
+
+_SHORT, _LONG = "0.0E+00", "0.00E+00"
+_ROOM = 9  # characters of a cell, from which on the long form has room in any program's font
+
+Cells = tuple[int, int, int, int]  # first row and column, last row and column
+
+
+def follow(book: Book, sheet: Any, cells: Cells, column: Column, room: int) -> None:
+    """Let the numbers of a column in some cells, each with room for so many characters, be legible at any size.
+
+    Small are those of cells none of which shows two digits in the decimals of the column, where it has such now.
+    """
+    sizes = [abs(x) for x in column.values.tolist() if isinstance(x, float | int)]
+    if column.power or column.unlike or not sizes:
+        return
+    top, left, bottom, right = cells
+    at, least, small = f"{letters(left)}{top + 1}", _least(column.decimals), "FALSE"
+    if max(sizes) >= least:
+        every = f"${letters(left)}${top + 1}:${letters(right)}${bottom + 1}"
+        greatest = f"MAX({AGGREGATE}(4,6,{every}),-{AGGREGATE}(5,6,{every}))"
+        small = f"IF(AND({at}<>0,ABS({at})<{written(least)}),{greatest}<{written(least)})"
+    _legible(book, sheet, cells, column.decimals, room, small)
+
+
+def alone(book: Book, sheet: Any, row: int, column: int, decimals: int, room: int) -> None:
+    """Let a number of so many decimals be legible at any size; it is small where it shows no two digits itself."""
+    at = f"{letters(column)}{row + 1}"
+    small = f"AND({at}<>0,ABS({at})<{written(_least(decimals))})"
+    _legible(book, sheet, (row, column, row, column), decimals, room, small)
+
+
+def _least(decimals: int) -> float:
+    return float(10.0 ** (1 - decimals))
+
+
+def _legible(book: Book, sheet: Any, cells: Cells, decimals: int, room: int, small: str) -> None:
+    """What is too long loses its decimals, or is a power of ten, as is what is ``small``."""
+    at, power = f"{letters(cells[1])}{cells[0] + 1}", _LONG if room >= _ROOM else _SHORT
+    long, whole = (f"LEN(FIXED({at},{places},TRUE))>{room}" for places in (decimals, 0))
+    for holds, form in ((f"IF({whole},TRUE,{small})", power), *([(long, "0")] if decimals else [])):
+        rule = {"type": "formula", "criteria": f"={holds}", "format": book.file.add_format({"num_format": form})}
+        sheet.conditional_format(*cells, {**rule, "stop_if_true": True})
