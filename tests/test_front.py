@@ -338,3 +338,13 @@ figure_2 = figure("2", "Own", x, y)"""
 def test_the_verdict_has_room_for_all_its_words(hitch: Path) -> None:
     """White on red, what went beyond the first column was not to be read."""
     assert "A2:E2" in opened(hitch)["Front"].merged_cells
+
+
+def test_a_mistake_in_a_unit_is_told_whatever_the_inputs_are(tmp_path: Path) -> None:
+    """Its check fails for all of them, and said why for the exported ones alone."""
+    sheet = own(tmp_path, "y = x * g.F  # [kN] line")
+    (tmp_path / "own.xlsx").write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+    (row,) = (
+        row for row in load_workbook(tmp_path / "own.xlsx")["Checks"].iter_rows(values_only=True) if "units" in row
+    )
+    assert row[1] == "=1" and row[5].startswith("line") and "unit [kN] does not fit" in row[5]

@@ -97,7 +97,9 @@ def _compared(check: Check, formulas: SheetFormulas, fixed: bool) -> tuple[Conte
 
 
 def _reason(check: Check, formulas: SheetFormulas) -> Content:
-    if check.name == _MADE:  # which is of all inputs
+    held = formulas.recording.checks.get(check.name)
+    fixed = held and all(part.op == "constant" for part in (*held.parts, held.limit))
+    if check.name == _MADE or (fixed and not check.passed):  # it is of all inputs, as that of units
         return check.reason
     return formulas.as_exported(check.reason) if check.reason else ""
 
