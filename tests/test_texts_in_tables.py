@@ -12,7 +12,7 @@ import pandas as pd
 import pytest
 from by_cells import by_cells
 from cells import run
-from openpyxl import Workbook
+from openpyxl import Workbook, load_workbook
 from own_worksheet import written
 from test_lists import script, typed
 from test_recalculation import computed, edit
@@ -385,6 +385,15 @@ def test_cells_show_the_texts_that_are_typed(cases: Path, tmp_path: Path, recalc
     _, checks, names = seen({}, {"name": "new", "F": 1, "arm": 2})
     assert names == ["braking", "cornering", "new"] and checks["inputs within their limits"][0] == "FAIL"
     assert script(cases, f"--scene={tmp_path / 'added.xlsx'}", f"--out={tmp_path / 'again'}").returncode == 0
+
+
+def test_a_text_that_is_typed_has_room_at_any_length(cases: Path, tmp_path: Path) -> None:
+    """A longer one was cut at the next cell, and where it is typed one line of three was seen."""
+    assert script(cases, f"--out={tmp_path}").returncode == 0
+    book = load_workbook(tmp_path / "cases.xlsx")
+    for cell in (book["Table 1"]["A5"], book["Input tables"]["B8"]):
+        assert cell.alignment.shrink_to_fit and not cell.alignment.wrap_text
+        assert cell.parent.column_dimensions[cell.column_letter].width > 20
 
 
 ORDERED = """

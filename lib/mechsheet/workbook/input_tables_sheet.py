@@ -146,7 +146,8 @@ def _words(column: GridColumn) -> tuple[str, str]:
 def _characters(column: GridColumn) -> int:
     """Characters of a column's width."""
     texts = (x if isinstance(x, str) else numbers.significant(x, 15) for x in column.values)
-    return max(_WIDTH, len(column.symbol), *(min(len(text), looks.WIDEST) for text in texts))
+    least = looks.TYPED_ROOM if column.is_text else _WIDTH
+    return max(least, len(column.symbol), *(min(len(text), looks.WIDEST) for text in texts))
 
 
 def _heads(book: Book, sheet: Any, spot: _Spot) -> None:
@@ -161,7 +162,7 @@ def _heads(book: Book, sheet: Any, spot: _Spot) -> None:
 
 def _column(book: Book, sheet: Any, spot: _Spot, formulas: SheetFormulas | None) -> None:
     followed = not formulas or spot.column.symbol in formulas.arrangement.followed
-    text = {**looks.TEXT, "num_format": "@"} if spot.column.is_text else {}  # what is typed stays a text
+    text = {**looks.TEXT, **looks.TYPED} if spot.column.is_text else {}
     style = book.style(looks.CELL, looks.FIELD if followed else looks.NUMBER, text)
     for k, value in enumerate(spot.column.values):
         put(sheet, _FIRST + k, spot.edited, value, style)

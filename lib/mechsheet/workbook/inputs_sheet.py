@@ -17,7 +17,6 @@ from mechsheet.worksheet.kinds import Choice, Switch
 from mechsheet.worksheet.lists import Rows
 
 _FOLLOWED = "No formula of this workbook follows a value without a yellow ground: run the worksheet again for it."
-_AS_TEXT = {"num_format": "@"}  # what is typed stays a text
 _SHEET = "Inputs"
 _SI = 5  # column of the numbers in SI units
 
@@ -159,7 +158,7 @@ def _live(book: Book, sheet: Any, items: Sequence[Item], read: dict[str, str], f
                 sheet.data_validation(n, 1, n, 1, _validation(row, f"B{n + 1}", read))
             if isinstance(row.value, str) or not (followed and row.asked):
                 look = {**(looks.FIELD if followed and row.asked else looks.NUMBER)}
-                look |= _AS_TEXT if isinstance(row.value, str) else {}
+                look |= looks.TYPED if isinstance(row.value, str) else {}
                 put(sheet, n, 1, row.value, book.style(looks.CELL, look))
         elif isinstance(row, Grid):
             asked |= {column.symbol for column in row.columns}

@@ -24,6 +24,7 @@ INFINITE: Look = {"num_format": '"∞"'}
 SI_DECIMALS = 6
 EXPORTED: Look = {"bg_color": "#E4E4E4", "font_color": "#595959"}  # does not follow other inputs
 BEHIND = "#A6A6A6"  # tabs of sheets behind the tables
+TYPED: Look = {"num_format": "@", "text_wrap": False, "shrink": True}  # stays a text, and has room at any length
 LINK: Look = {"align": "left", "indent": 1, "font_color": "#0563C1", "underline": 1}
 VERDICT: Look = {"align": "center", "bold": True}
 PASS: Look = {"font_color": "#2F6B2F"}
@@ -33,6 +34,7 @@ OPEN: Look = {"font_color": "#7A4B00", "bg_color": "#FCE4B8"}  # not evaluated
 # Pixels at 96 dpi: a character, a cell's padding, a row; the printable part of A4 upright and on its side.
 CHAR, PAD, ROW = 7, 18, 21
 UPRIGHT, SIDEWAYS = (680, 980), (1000, 650)
+TYPED_ROOM = 20  # characters of a column of texts that may be typed, at least
 WIDEST, WRAP = 48, 58  # digits that the widest column holds, letters that fill a line of it
 FIRST = 4  # rows over the numbers of a table: title, note, symbols, units
 EMPTY = 64  # a column of no width of its own, in the last of which a chart may end

@@ -53,7 +53,9 @@ def write(
 ) -> tuple[Any, list[Spot]]:
     """A sheet of numbers under their symbols and units, ``grey`` columns apart, and the places of charts on it."""
     rows = max(len(column.values) for column, _ in columns)
-    widths = [CHAR * (13 if numbers else _room(column)) + PAD for column, _ in columns]
+    live = [bool(cells) and isinstance(cells[0], Live) for _, cells in columns]
+    rooms = [13 if numbers else _room(column, typed) for (column, _), typed in zip(columns, live, strict=True)]
+    widths = [CHAR * room + PAD for room in rooms]
     sheet, spots = (_short if rows <= LONG else _long)(book, name, heading, widths, rows, charts, behind)
     sheet.set_row_pixels(1, ROW if note else ROW // 3)
     put(sheet, 1, 0, note, book.style(looks.NOTE))
@@ -64,12 +66,13 @@ def write(
         if column.meaning:
             sheet.write_comment(2, col, allowed(column.meaning), {"font_name": "Arial", "font_size": 9})
         look = {**side, **({} if col else looks.KEY), "num_format": column.number_format, **(numbers or {})}
+        look |= {} if column.unit or numbers else {"shrink": True}  # a text that is typed may be longer
         look |= looks.EXPORTED if col in grey else {}
         style, last = book.style(look, looks.CELL), book.style(look, looks.BOTTOM)
         for row, value in enumerate(cells, FIRST):
             put(sheet, row, col, value, style if row < FIRST + rows - 1 else last)
-        if numbers is None and cells and isinstance(cells[0], Live):
-            sizes.follow(book, sheet, (FIRST, col, FIRST + rows - 1, col), column, _room(column))
+        if numbers is None and live[col]:
+            sizes.follow(book, sheet, (FIRST, col, FIRST + rows - 1, col), column, rooms[col])
     return sheet, spots
 
 
@@ -117,6 +120,7 @@ def _break(sheet: Any, wide: int, rows: int) -> int:
     return held
 
 
-def _room(column: Column) -> int:
-    """Characters for which its cells have room."""
-    return min(looks.WIDEST, max(7, len(column.symbol), len(column.unit), *map(len, column.texts())))
+def _room(column: Column, live: bool) -> int:
+    """Characters for which its cells have room; a text that follows what is typed may be longer than it is now."""
+    least = looks.TYPED_ROOM if live and not column.unit else 7
+    return min(looks.WIDEST, max(least, len(column.symbol), len(column.unit), *map(len, column.texts())))
