@@ -401,7 +401,8 @@ sigma = g.cases.F * g.cases.arm / g.W  # [MPa] stress
 order = np.argsort(-sigma)
 s = sigma[order]  # [MPa] the greatest first
 b = sigma[::-1]  # [MPa] the last first
-table_1 = table("1", "By stress", g.cases.name[order], s)
+who = g.cases.name[order]
+table_1 = table("1", "By stress", who, s)
 table_2 = table("2", "Back", g.cases.name[::-1], b)
 typeset(table_1, table_2)
 """
@@ -430,9 +431,8 @@ def test_texts_stand_in_the_order_of_numbers(tmp_path: Path, recalculated_all: A
         page.goto(f"{file.as_uri()}#cases={name}; {F}; 80 | cornering; 8; 150")
         shown = page.locator(".ms-table tbody tr td:first-child").all_inner_texts()
         assert shown == [*wanted[0], *wanted[1]], changes
-    column = "name = g.cases.name[order]  # [-] name\ntable_1 = table('1', 'By stress', name, s)"
-    other = ORDERED.replace('table_1 = table("1", "By stress", g.cases.name[order], s)', column)
-    with pytest.raises(SheetError, match=r"name is no number; texts are columns as inputs, .* g.bolts.name\[order\]"):
+    other = ORDERED.replace("who = g.cases.name[order]", "who = g.cases.name[order]  # [-] name")
+    with pytest.raises(SheetError, match=r"who = g.cases.name\[order\] is no number: it has no \[unit\]"):
         evaluate(sheet_of(tmp_path, other), ["table_1"])
 
 
@@ -526,6 +526,12 @@ def test_a_check_that_is_called_by_what_was_chosen_follows(tmp_path: Path, page:
     page.get_by_label("F, row 4").fill("1")
     page.get_by_label("arm, row 4").fill("1")
     assert told() == ["force of third, 1 do", "FAIL"]  # with two rows more than the page was made with
+
+
+def test_texts_that_are_no_inputs_are_no_column(tmp_path: Path) -> None:
+    other = sheet_of(tmp_path, 'name = np.array(["x", "y"], object)\ntable_1 = table("1", "Two", name, g.cases.F)')
+    with pytest.raises(SheetError, match="name is no number; texts are columns as inputs"):
+        load(other).run(["table_1"], {"g": built(other)})
 
 
 @pytest.mark.office

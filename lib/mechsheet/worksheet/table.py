@@ -343,17 +343,18 @@ def _of_texts(node: ast.expr, value: Any) -> ast.expr:
 
 
 def _texts_of(namespace: Mapping[str, Any], value: Any) -> Input | None:
-    """The declaration of the column of texts that a value is, whatever the worksheet calls it."""
+    """The declaration of the column of texts that a value is of, in any order, whatever the worksheet calls it."""
     if not isinstance(value, np.ndarray) or value.dtype != object:
         return None
+    texts = {*map(id, value)}
     tables = (
         (field, getattr(given, field.name))
         for given in namespace.values()
         for field in getattr(type(given), "__inputs__", ())
     )
-    every = ((leaf, getattr(table, leaf.name.rpartition(".")[2], None))
+    every = ((leaf, getattr(table, leaf.name.rpartition(".")[2], ()))
              for field, table in tables for leaf, _ in field.leaves(table).values() if leaf.is_text)  # fmt: skip
-    return next((leaf for leaf, held in every if held is value), None)
+    return next((leaf for leaf, held in every if held is value or (texts and texts <= {*map(id, held)})), None)
 
 
 _NOT_SHOWN = {
