@@ -15,7 +15,7 @@ from as_script import as_script
 from conftest import WITHIN
 from openpyxl import load_workbook
 from own_worksheet import written
-from test_recalculation import edit, export
+from test_recalculation import computed, edit, export
 from test_recorded_worksheet import own
 
 from mechsheet.run import report
@@ -348,3 +348,21 @@ def test_a_mistake_in_a_unit_is_told_whatever_the_inputs_are(tmp_path: Path) -> 
         row for row in load_workbook(tmp_path / "own.xlsx")["Checks"].iter_rows(values_only=True) if "units" in row
     )
     assert row[1] == "=1" and row[5].startswith("line") and "unit [kN] does not fit" in row[5]
+
+
+def test_no_step_is_a_number_that_was_typed(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """What tells whether a list is the exported one stood as that list among the steps, whatever was typed."""
+    given = "F: float = 2.0  # [-] number\nlengths: list[float] = [1.25, 2.5, 7.75]  # [-] lengths"
+    lines = """s = np.linalg.eigvals(np.diag(g.lengths)).real  # [-] own values
+y = g.F if max(s) > 5 else 2.0  # [-] looks at it
+typeset()"""
+    setup = "import numpy as np\nfrom mechsheet import ask, export, inputs, read, typeset"
+    path = tmp_path / "own.py"
+    path.write_text(written(setup, given, lines, "Own"))
+    book = computed(path, tmp_path, {})
+    live = recalculated(edit(book, {"lengths (2)": 2.75}, tmp_path / "edited.xlsx"))
+    behind = [sheet for sheet in live if sheet.title.endswith(("lines", "fields"))]
+    shown = [cell for sheet in behind for row in sheet.iter_rows(values_only=True) for cell in row]
+    assert "#N/A" in shown and {1.25, 2.5, 7.75}.isdisjoint(shown)
+    (y,) = (row for row in behind[0].iter_rows(values_only=True) if row[0] == "y")
+    assert y[1] == "#N/A"

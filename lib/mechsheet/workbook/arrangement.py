@@ -244,7 +244,7 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
         ):
             placed[node] = None
             own = deep = 0
-        if node.op in ("reduce", "at") and node.args[0].op != "input":
+        if node.op in ("reduce", "at") and node.args[0].op != "input" and node.args[0] in written_of(node):
             placed.setdefault(node.args[0])
         weight[node], depth[node] = own, deep
     return [node for node in placed if node.size]

@@ -207,7 +207,8 @@ class CellFormulas:
                 part = self._element(source, index.reshape(-1)[at], rows)
                 return self._while_counted(*part) if node.stretches and not source.stretches else part
             case "reduce":
-                return self._reduced(node, at, rows)
+                leaf = _as_it_was(node)
+                return (self._unchanged(leaf, rows), 1) if leaf else self._reduced(node, at, rows)
             case "at":
                 source, position = node.args
                 if not source.size:
@@ -318,7 +319,19 @@ def written_of(node: Node) -> tuple[Node, ...]:
             return ()
         case "iterated":  # by the turns that the loop takes, while these are as many
             return node.args[2:]
+        case "reduce" if leaf := _as_it_was(node):
+            return (leaf,)
     return node.operands
+
+
+def _as_it_was(node: Node) -> Node | None:
+    """The list among the inputs of which a condition says that all its numbers are the exported ones."""
+    source, groups, kind, _ = node.args
+    if kind != "all" or len(groups) != 1 or source.op != "eq":
+        return None
+    leaf, known = source.args
+    same = leaf.op == "input" and leaf.size > 1 and known.op == "constant"
+    return leaf if same and len(groups[0]) == leaf.size and np.array_equal(leaf.value, known.value) else None
 
 
 def nesting(node: Node, inside: Mapping[Node, int]) -> int:
