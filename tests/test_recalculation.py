@@ -339,6 +339,17 @@ checks = check("most", most, 9.0), check("mean", mean, 9.0), check("end", end, 9
         assert front.count(count) == 1 and {*front} == {"#N/A", count}, front
 
 
+def test_another_number_of_rows_is_told_where_nothing_else_is_known(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """The check that asks for another export was not evaluated: code looks at numbers that are in no cell then."""
+    sheet = own(tmp_path, "y = g.a * np.sin(x)  # [-] curve\nway = 2.0 if np.unique(y).max() > 9 else g.F  # [-] way")
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+    assert verdicts(recalculated(path))[MADE] == "PASS"
+    assert verdicts(recalculated(edit(path, {"n": 4}, tmp_path / "edited.xlsx")))[MADE] == "FAIL"
+
+
 def test_found_value_without_a_closed_form_is_searched_or_that_of_its_own_inputs(
     recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
 ) -> None:

@@ -219,8 +219,11 @@ class SheetFormulas:
         solved = [node for node, inverse in self._inverse.items() if inverse is None and node.op == "found"]
         holds = {*map(self._cells.while_fixed, solved)} - {""}
         holds |= {self._cells.reference(condition)[1:] for condition in self.recording.guards}
-        texts = [f"IF({text},0,1)" for text in holds]
-        return "=" + "+".join(sorted(texts)) if texts else ""
+        of_rows = {self._cells.reference(node)[1:] for node, guard in self.recording.guards.items() if guard.rows}
+        every, rows = ("+".join(f"IF({text},0,1)" for text in sorted(texts)) for texts in (holds, of_rows))
+        if rows in ("", every):
+            return f"={every}" if every else ""
+        return f"=IF({rows}=0,{every},{rows})"  # of other rows it may be that nothing else is known
 
     def looked(self) -> str:
         """The lines of the worksheet whose code goes another way, or has other rows, where such a condition changes."""
