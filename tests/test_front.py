@@ -301,26 +301,32 @@ def test_numbers_of_another_size_are_legible(
     recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
 ) -> None:
     """Those too long for their cells stood there as ###, and small ones as 0.000; the last row has no number."""
-    lines = """y = np.where(x == x[-1], np.nan, x)  # [-] field
+    lines = """from mechsheet import check
+y = np.where(x == x[-1], np.nan, x)  # [-] field
 z = 3 * g.F  # [kN] alone
+checks = check("own", z / 7, at_least=-1e30, unit="kN")
 table_2 = table("2", "Own", y)
 figure_2 = figure("2", "Own", x, y)"""
     sheet = own(tmp_path, lines)
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": str(sheet.path)}
     (tmp_path / "own.xlsx").write_bytes(report.workbook("Own", names, {}))
+    any_size = "[>=100]0;[>=0.01]0.000;General"
     expected = {
-        2.5: ("0.0000", "0.0000", "0.000000"),
-        1e7: ("0", "0", "0"),
-        -1e14: ("0.0E+00", "0.00E+00", "0.00E+00"),
-        1e-2: ("0.0000", "0.0000", "0.000000"),
-        1e-5: ("0.0E+00", "0.00E+00", "0.00E+00"),
-        0.0: ("0.0000", "0.0000", "0.000000"),
+        2.5: ("0.0000", "0.0000", "0.000000", "0.00E+00"),
+        21.0: ("0.0000", "0.0000", "0.000000", any_size),
+        1e7: ("0", "0", "0", any_size),
+        -1e6: ("0", "0", "0", "0"),
+        -1e3: ("0", "0.0000", "0.000000", "0.000"),
+        -1e14: ("0.0E+00", "0.00E+00", "0.00E+00", "0.00E+00"),
+        1e-2: ("0.0000", "0.0000", "0.000000", "0.00E+00"),
+        1e-5: ("0.0E+00", "0.00E+00", "0.00E+00", "0.00E+00"),
+        0.0: ("0.0000", "0.0000", "0.000000", any_size),
     }
     edited = list[Path]()
     for F in expected:
         book = load_workbook(tmp_path / "own.xlsx")
         rows = {cells[0].value: cells[0].row for cells in book["Front"].iter_rows(min_row=5)}
-        places = ("2 Own", "A5"), ("Front", f"B{rows['y']}"), ("Front", f"B{rows['z']}")
+        places = ("2 Own", "A5"), ("Front", f"B{rows['y']}"), ("Front", f"B{rows['z']}"), ("Checks", "B4")
         known = [forms(book[title], address) for title, address in places]
         for n, ((title, _), rules) in enumerate(zip(places, known, strict=True)):
             for row, (condition, _) in enumerate(rules, 1):

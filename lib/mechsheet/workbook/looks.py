@@ -18,7 +18,8 @@ VALUE_DECIMALS = 6
 VALUE: Look = {**NUMBER, "num_format": f"0.{'0' * VALUE_DECIMALS}"}
 SMALL: Look = {**NUMBER, "num_format": "0.0E+00;-0.0E+00;0"}
 QUANTITY: Look = {**NUMBER, "num_format": "[>=100]0;[>=0.01]0.000;General"}  # of any size
-AT_LEAST: Look = {**NUMBER, "num_format": '[>=100]"≥ "0;[>=0.01]"≥ "0.000;"≥ "General'}
+FROM = '"≥ "'
+AT_LEAST: Look = {**NUMBER, "num_format": f"[>=100]{FROM}0;[>=0.01]{FROM}0.000;{FROM}General"}
 SI: Look = {**NUMBER, "num_format": '[>=1E+307]"∞";[<=-1E+307]"-∞";General', "font_color": "#595959"}
 INFINITE: Look = {"num_format": '"∞"'}
 SI_DECIMALS = 6

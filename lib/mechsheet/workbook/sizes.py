@@ -8,6 +8,7 @@ from mechsheet.workbook.place import letters
 from mechsheet.worksheet.table import Column
 
 _SHORT, _LONG = "0.0E+00", "0.00E+00"
+_SEEN = 10  # characters of a small number that all programs show as it is
 _ROOM = 9  # characters of a cell, from which on the long form has room in any program's font
 
 Cells = tuple[int, int, int, int]  # first row and column, last row and column
@@ -37,6 +38,14 @@ def alone(book: Book, sheet: Any, row: int, column: int, decimals: int, room: in
     _legible(book, sheet, (row, column, row, column), decimals, room, small)
 
 
+def of_any(book: Book, sheet: Any, row: int, column: int, sign: str = "") -> None:
+    """Let a number in the form for quantities of any size be legible where it is negative, very large or small."""
+    at = f"{letters(column)}{row + 1}"
+    long = f'OR(ABS({at})>=1E10,AND(ABS({at})<0.01,LEN({at}&"")>{_SEEN}))'
+    for holds, form in ((long, _LONG), (f"{at}<=-100", "0"), (f"{at}<=-0.01", "0.000")):
+        _formed(book, sheet, (row, column, row, column), holds, f"{sign}{form}")
+
+
 def _least(decimals: int) -> float:
     return float(10.0 ** (1 - decimals))
 
@@ -45,6 +54,12 @@ def _legible(book: Book, sheet: Any, cells: Cells, decimals: int, room: int, sma
     """What is too long loses its decimals, or is a power of ten, as is what is ``small``."""
     at, power = f"{letters(cells[1])}{cells[0] + 1}", _LONG if room >= _ROOM else _SHORT
     long, whole = (f"LEN(FIXED({at},{places},TRUE))>{room}" for places in (decimals, 0))
-    for holds, form in ((f"IF({whole},TRUE,{small})", power), *([(long, "0")] if decimals else [])):
-        rule = {"type": "formula", "criteria": f"={holds}", "format": book.file.add_format({"num_format": form})}
-        sheet.conditional_format(*cells, {**rule, "stop_if_true": True})
+    _formed(book, sheet, cells, f"IF({whole},TRUE,{small})", power)
+    if decimals:
+        _formed(book, sheet, cells, long, "0")
+
+
+def _formed(book: Book, sheet: Any, cells: Cells, holds: str, form: str) -> None:
+    look = book.file.add_format({"num_format": form})
+    rule = {"type": "formula", "criteria": f"={holds}", "format": look, "stop_if_true": True}
+    sheet.conditional_format(*cells, rule)
