@@ -32,9 +32,9 @@ def follow(book: Book, sheet: Any, cells: Cells, column: Column, room: int) -> N
 
 
 def alone(book: Book, sheet: Any, row: int, column: int, decimals: int, room: int) -> None:
-    """Let a number of so many decimals be legible at any size; it is small where it shows no two digits itself."""
+    """Let a number of so many decimals be legible at any size; it is small where it shows no three digits itself."""
     at = f"{letters(column)}{row + 1}"
-    small = f"AND({at}<>0,ABS({at})<{written(_least(decimals))})"
+    small = f"AND({at}<>0,ABS({at})<{written(_least(decimals - 1))})"
     _legible(book, sheet, (row, column, row, column), decimals, room, small)
 
 
