@@ -14,6 +14,9 @@ from mechsheet.workbook.place import Place
 from mechsheet.workbook.text_formula import text_formula
 from mechsheet.worksheet.table import Figure, Table
 
+_LONGEST = 5000  # characters of a formula that are written twice, at most: a cell holds 8192
+_KNOWN = {"input", "constant", "eq", "ne", "lt", "le", "gt", "ge", "not", "and", "or", "add", "sub", "mul", "neg"}
+
 
 class Compared(NamedTuple):
     """Formulas of a check's residual and of its limit, and the limit's value."""
@@ -219,11 +222,12 @@ class SheetFormulas:
         solved = [node for node, inverse in self._inverse.items() if inverse is None and node.op == "found"]
         holds = {*map(self._cells.while_fixed, solved)} - {""}
         holds |= {self._cells.reference(condition)[1:] for condition in self.recording.guards}
-        of_rows = {self._cells.reference(node)[1:] for node, guard in self.recording.guards.items() if guard.rows}
-        every, rows = ("+".join(f"IF({text},0,1)" for text in sorted(texts)) for texts in (holds, of_rows))
-        if rows in ("", every):
+        changed = [f"IF({text},0,1)" for text in sorted(holds)]
+        every, known = "+".join(changed), "+".join(f"IFERROR({text},0)" for text in changed)
+        nodes = bottom_up(self.recording.guards, ())
+        if len(changed) < 2 or len(every) + len(known) > _LONGEST or all(node.op in _KNOWN for node in nodes):
             return f"={every}" if every else ""
-        return f"=IF({rows}=0,{every},{rows})"  # of other rows it may be that nothing else is known
+        return f"=IFERROR({every},IF({known}=0,NA(),{known}))"  # where one has changed, others may not be known
 
     def looked(self) -> str:
         """The lines of the worksheet whose code goes another way, or has other rows, where such a condition changes."""
