@@ -339,6 +339,30 @@ checks = check("most", most, 9.0), check("mean", mean, 9.0), check("end", end, 9
         assert front.count(count) == 1 and {*front} == {"#N/A", count}, front
 
 
+def test_a_line_that_is_another_name_of_one_bound_anew_follows(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """A sum of a loop, whose first line tells its unit, stood behind that name as the number of the exported inputs."""
+    shown, books = list[float](), list[Path]()
+    for n, steps in enumerate(
+        (
+            "for i in range(3):\n    y = y + 0.5 * g.F",
+            "for i in range(5):\n    if g.F > i:\n        y = y + 1",
+            "y = y + g.F",
+            "if g.k > 1:\n    y = 2 * g.F",
+            "y = np.zeros(2) + g.F * np.array([1.0, 2.0])\ny = y[1]",
+        )
+    ):
+        sheet = own(tmp_path, f"y = 0.0  # [-] first\n{steps}\nlevel = y * 1  # [-] in the end")
+        path = tmp_path / f"own{n}.xlsx"
+        path.write_bytes(report.workbook("", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+        books.append(edit(path, {"F": 3.25}, tmp_path / f"edited{n}.xlsx"))
+        shown.append(evaluate(sheet.path, ["level"], F=3.25)["level"])
+    for book, expected in zip(recalculated_all(books), shown, strict=True):
+        lines = {row[0]: row[1] for row in book["Table lines"].iter_rows(min_row=3, values_only=True)}
+        assert lines["level"] == pytest.approx(expected, rel=1e-14)
+
+
 def test_another_number_of_rows_is_told_where_nothing_else_is_known(
     recalculated: Callable[[Path], Any], tmp_path: Path
 ) -> None:

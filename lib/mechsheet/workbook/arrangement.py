@@ -184,8 +184,11 @@ class Arrangement:
 
 
 def declared(recording: Recording) -> list[Line]:
-    """Lines that declare a unit."""
-    return [line for lines in recording.lines.values() for line in lines if line.text and line.unit]
+    """Lines that declare a unit, among them such as are another name for what no other line shows."""
+    lines, others = ([line for lines in each.values() for line in lines if line.text and line.unit]
+                     for each in (recording.lines, recording.others))  # fmt: skip
+    shown = {line.node for line in lines}
+    return [*lines, *(line for line in others if line.node.op not in LEAVES and line.node not in shown)]
 
 
 def last_lines(recording: Recording, lines: Sequence[Line]) -> list[Line]:
