@@ -18,6 +18,7 @@ import pandas as pd
 import pytest
 import written_cells
 from openpyxl import Workbook, load_workbook
+from own_worksheet import written
 from test_recorded_worksheet import FOLLOWED, own
 from typed_workbook import typed
 
@@ -337,6 +338,44 @@ checks = check("most", most, 9.0), check("mean", mean, 9.0), check("end", end, 9
         assert {name for name, said in checks.items() if said != "not evaluated"} == {"count", "units"}
         front = [row[1].value for row in book["Front"].iter_rows(min_row=5) if row[3].value == "-"]
         assert front.count(count) == 1 and {*front} == {"#N/A", count}, front
+
+
+def test_how_many_rows_there_were_is_no_number_for_others(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """A row that was added or taken out left their number as it was, and a check of it passed."""
+    setup = """import numpy as np
+from mechsheet import ask, check, export, inputs, read, table, typeset
+@inputs
+class Row:
+    name: str  # name
+    x: float  # [m] place"""
+    given = """F: float = 2.0  # [-] number
+lengths: list[float] = [1.25, 2.5, 7.75]  # [m] lengths
+rows: list[Row] = [Row("a", 1.0), Row("b", 2.0)]  # rows"""
+    lines = """n = len(g.lengths)  # [-] lengths
+m = len(g.rows)  # [-] rows
+k = g.rows.x.size * g.F  # [-] product
+i = np.arange(len(g.lengths))  # [-] their numbers
+u = 1.0 if len(g.rows) > 1 else 0.0  # [-] several
+other = 3 * g.F  # [-] rests on none
+checks = check("lengths", n, at_least=3), check("rows", len(g.rows), at_least=2)
+table_1 = table("1", "Numbers", i)
+typeset()"""
+    path = tmp_path / "own.py"
+    path.write_text(written(setup, given, lines, "Own"))
+    made = computed(path, tmp_path, {})
+    same, more = recalculated(made), load_workbook(made)
+    more["Input tables"]["B11"] = 3.0
+    more["Input tables"]["E9"] = None
+    more.save(tmp_path / "more.xlsx")
+    other = recalculated(tmp_path / "more.xlsx")
+    known, lost = (
+        {row[0]: row[1] for row in book["Table lines"].iter_rows(3, values_only=True)} for book in (same, other)
+    )
+    assert [known[name] for name in ("n", "m", "k", "u", "other")] == [3, 2, 4, 1, 6]
+    assert [lost[name] for name in ("n", "m", "k", "u", "other")] == ["#N/A"] * 4 + [6]
+    assert [cell.value for cell in other["1 Numbers"]["A"][4:]] == ["#N/A"] * 3
+    assert {verdicts(same)[name] for name in ("lengths", "rows", MADE)} == {"PASS"}
+    assert [verdicts(other)[name] for name in ("lengths", "rows", MADE)] == ["not evaluated"] * 2 + ["FAIL"]
 
 
 def test_a_line_that_is_another_name_of_one_bound_anew_follows(

@@ -59,12 +59,21 @@ class Lengths(ABC):
         """An operation, element by element, on operands that are broadcast to each other."""
 
     @abstractmethod
+    def reduce(self, kind: str, node: Node, axis: Any, keepdims: bool) -> Node:
+        """Sums, greatest values and the like along axes."""
+
+    @abstractmethod
     def own_length(self, node: Node, axis: int) -> Node:
         """The length of a quantity along an axis that nothing else has."""
 
     @abstractmethod
     def see(self, seen: Node, *, why: str = "") -> None:
         """Note that Python looks at a condition, which holds now."""
+
+    def ask_rows(self, node: Node) -> None:
+        """Note that Python asks how many rows a list among the inputs has: its cells have numbers for so many alone."""
+        if node.op == "input" and node.shape and not node.stretches:
+            self.see(self.reduce("all", self.node("finite", node), None, False))
 
     def go_together(self, *parts: Node, strictly: bool = False, hidden: bool = False) -> None:
         """Note that the shapes of quantities go together, as numpy asks for, where a condition tells how many rows.

@@ -79,6 +79,7 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def size(self) -> Any:
+        self.graph.ask_rows(self.re)
         return self.count()
 
     @property

@@ -195,7 +195,13 @@ def last_lines(recording: Recording, lines: Sequence[Line]) -> list[Line]:
     """Those of some lines that are single numbers on which no other line rests."""
     every = chain.from_iterable(recording.lines.values())
     under = set(bottom_up((operand for line in every for operand in line.node.operands), ()))
-    return [line for line in lines if line.node.size == 1 and line.node not in under]
+    last = (line for line in lines if line.node.size == 1 and line.node not in under)
+    return [line for line in last if any(part.op != "constant" for part in _while_known(line.node))]
+
+
+def _while_known(node: Node) -> Sequence[Node]:
+    """What a quantity is while something holds, and what it is else; any other one itself."""
+    return node.args[1:] if node.op == "where" else (node,)
 
 
 def too_long(recording: Recording) -> list[Line]:
