@@ -372,3 +372,18 @@ typeset()"""
     assert "#N/A" in shown and {1.25, 2.5, 7.75}.isdisjoint(shown)
     (y,) = (row for row in behind[0].iter_rows(values_only=True) if row[0] == "y")
     assert y[1] == "#N/A"
+
+
+def test_a_mark_of_a_chart_passes_over_what_is_no_number(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """Its line had no ends, and was not drawn, where a curve has no number somewhere."""
+    lines = """y = np.where(x > 1, g.F * x, np.nan)  # [-] gaps
+top = x[-1]  # [-] marked
+figure_1 = figure("1", "Gaps", x, y, marks={"top": top})"""
+    sheet = own(tmp_path, lines)
+    (tmp_path / "own.xlsx").write_bytes(report.workbook("Own", {**sheet.run_whole(), "__file__": sheet.path}, {}))
+    for path, ends in (
+        (tmp_path / "own.xlsx", (1.4375 * 2.5, 12.5)),
+        (edit(tmp_path / "own.xlsx", {"F": 5.0}, tmp_path / "edited.xlsx"), (14.375, 50.0)),
+    ):
+        (row,) = recalculated(path)["Marks"].iter_rows(min_row=3, values_only=True)
+        assert row[4:6] == pytest.approx(ends)

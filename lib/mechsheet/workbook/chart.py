@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from mechsheet.units import shown
 from mechsheet.workbook import axis, looks
 from mechsheet.workbook.book import Book
+from mechsheet.workbook.cell_formula import AGGREGATE
 from mechsheet.workbook.content import Content, Live, allowed, caption, fits
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.sheet_formulas import SheetFormulas
@@ -98,9 +99,11 @@ class Charts:
         y: Sequence[Content] = ends
         if formula := self._formulas and self._formulas.mark(figure.number, label, figure.x.unit):
             x = Live(formula, at)
-            numbers = np.concatenate([line.values for line in figure.lines])
+            values = np.concatenate([line.values for line in figure.lines])
+            numbers = values[np.isfinite(values)]
             ranges = ",".join(place(line).range(part.start, part.stop - 1) for line, part, _ in figure.series())
-            y = [Live(f"={f}({ranges})", float(g(numbers))) for f, g in (("MIN", np.min), ("MAX", np.max))]
+            known = [end(numbers).item() if numbers.size else np.nan for end in (np.min, np.max)]
+            y = [Live(f"={AGGREGATE}({of},6,{ranges})", end) for of, end in zip((5, 4), known, strict=True)]
         self._marked.append((caption("Figure", figure), label, x, x, *y))
         return {
             "name": ["Marks", row, 1],
