@@ -97,7 +97,7 @@ def book(worksheet: cells.Worksheet, name: str) -> Callable[..., Book]:
         }
         with ZipFile(file) as parts:
             stored = written_cells.sheets(parts)
-            beside = {title: re.sub("<cols>.*</sheetData>", "", text) for title, text in stored}
+            beside = {title: re.sub("<cols>.*</sheetData>", "", _OF_SIZE.sub("", text)) for title, text in stored}
             for where in parts.namelist():
                 if re.match("xl/(charts/|comments|workbook.xml)", where):
                     text = parts.read(where).decode()
@@ -105,6 +105,10 @@ def book(worksheet: cells.Worksheet, name: str) -> Callable[..., Book]:
         return Book(held, beside)
 
     return made
+
+
+# A rule for numbers of another size than those that the format of a cell is for; where printed pages end.
+_OF_SIZE = re.compile(r"<cfRule[^>]*><formula>(?:IF\()?LEN\(FIXED\([^<]*</formula></cfRule>|<brk [^>]*/>")
 
 
 def columns(book: Book) -> Iterator[tuple[str, str, list[tuple[int, Any]]]]:
