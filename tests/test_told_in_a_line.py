@@ -46,6 +46,37 @@ REFUSED = {
 }  # fmt: skip
 
 
+SIGNS = {  # of print, which Python reads otherwise or not at all
+    "y = 2·x": "a product is written *",
+    "y = 2 × x": "a product is written *",
+    "y = x − 2": "a minus is written -",
+    "y = x²": "a power is written **",
+    "y = √(2)": "a root is written sqrt(..)",
+    "y = sin(30°)": "an angle in degrees is written 30 * deg",
+    "y = 1 if x ≤ 2 else 0": "comparisons are written <=, >= and !=",
+    "y = |x|": "an absolute value is written abs(..)",
+    "y = “name”": 'a text stands between " and "',
+}
+
+
+@pytest.mark.parametrize("line", SIGNS)
+def test_signs_of_print_are_told_as_they_are_written(line: str) -> None:
+    with pytest.raises(SyntaxError) as found:
+        compile(line, "", "exec")
+    assert mistakes.unread(found.value).endswith(f"({SIGNS[line]})")
+
+
+def test_a_name_that_is_to_be_imported_is_told_from_where() -> None:
+    """Rather than one that is like it."""
+    known = ["sin", "check", "sinus"]
+    for name, source in {"sinh": "numpy", "linspace": "numpy", "pi": "numpy", "check_slope": "mechsheet"}.items():
+        assert mistakes.undefined(name, known).endswith(f"in any cell (from {source} import {name})")
+    assert mistakes.undefined("sinis", known).endswith("(did you mean sinus?)")
+    assert mistakes.undefined("F", known, ["F"]).endswith("(did you mean g.F?)")
+    assert mistakes.undefined("x·y", known).endswith(" (a product is written *)")
+    assert mistakes.no_input("F·g", ["F"]) == "there is no input F·g (a product is written *)"
+
+
 IN_WORDS = {  # what Python says in words about values that nobody sees in the line
     "a function as a number": ("f = lambda x: g.F * x  # [N] f\ny = 2 * f  # [N] y", "in its brackets, such as"),
     "a function in square brackets": ("f = lambda x: x  # [-] f\ny = f[2]  # [-] y", "in its brackets, such as"),

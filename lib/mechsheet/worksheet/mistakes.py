@@ -3,11 +3,13 @@
 import builtins
 import re
 import sys
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from traceback import walk_tb
 from types import FrameType
+
+import numpy as np
 
 from mechsheet import units
 from mechsheet.worksheet.errors import SheetError, nearest
@@ -35,17 +37,32 @@ def as_written(text: str) -> str:
 _BY_CELL = re.compile(r"(?<!\w)_cell(\d+|_[^\W_]+)(?=_)")
 
 
-def undefined(name: str, known: Iterable[str]) -> str:
+def undefined(name: str, known: Iterable[str], inputs: Container[str] = ()) -> str:
+    """What is told of a name that no cell defines, with what may have been meant.
+
+    >>> undefined("cos", ["cos_1"])
+    'the name cos is not defined in any cell (from numpy import cos)'
+    """
     is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
-    hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _near(name, known)
-    hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else hint
+    hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _imported(name) or _near(name, known)
+    hint = f" (did you mean g.{name}?)" if name in inputs else hint
+    hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else f" ({_PRODUCT})" if _DOT in name else hint
     return f"the name {name} is not defined in any cell{hint}"
+
+
+def _imported(name: str) -> str:
+    """From where a function or constant of formulas is imported; "" of any other name."""
+    if name in vars(sys.modules["mechsheet"]).get("__all__", ()):
+        return f" (from mechsheet import {name})"
+    meant = getattr(np, name) if len(name) > 1 and name in np.__all__ else None
+    return f" (from numpy import {name})" if callable(meant) or isinstance(meant, float) else ""
 
 
 _ELSEWHERE = {  # names of other languages
     "i": "the imaginary unit is 1j", "j": "the imaginary unit is 1j", "yes": "did you mean True?",
-    "no": "did you mean False?", "true": "did you mean True?", "false": "did you mean False?",
+    "no": "did you mean False?", "true": "did you mean True?", "false": "did you mean False?", "π": "did you mean pi?",
 }  # fmt: skip
+_DOT, _PRODUCT = "·", "a product is written *"  # which Python takes for a letter of the name
 
 
 def twice(*names: str) -> str:
@@ -55,7 +72,19 @@ def twice(*names: str) -> str:
     return f"{', '.join(names)} {are} defined in two cells: {rename}"
 
 
+def late(name: str, itself: bool) -> str:
+    """What is told of a name that has no value yet where its cell reads it: in its own line, or above that."""
+    return f"{name} is computed from itself" if itself else f"{name} is defined below its use: move its line up"
+
+
+def inputs_of(names: Mapping[str, object]) -> list[str]:
+    """Names of the inputs in a namespace."""
+    return [field.name for field in getattr(type(names.get("g")), "__inputs__", ())]
+
+
 def no_input(name: str, known: Iterable[str]) -> str:
+    if _DOT in name:
+        return f"there is no input {name} ({_PRODUCT})"
     return f"there is no input {name}{_near(name, known)}"
 
 
@@ -103,7 +132,7 @@ def told(error: BaseException, path: str) -> str:
     if not places:
         return why(error, known)
     line, text = places[-1][1], file.read_text(encoding="utf-8")
-    given = {field.name for field in getattr(type(places[-1][0].f_globals.get("g")), "__inputs__", ())}
+    given = inputs_of(places[-1][0].f_globals)
     return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
@@ -131,7 +160,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if isinstance(error, NameError) and error.name:
         called = as_written(error.name)
         if called in inputs:
-            return f"the name {called} is not defined in any cell (did you mean g.{called}?)"
+            return undefined(called, (), inputs)
         name = rf"{called}\b"
         binds = rf"(^|[:;])\s*(def {name}|{name}\s*(=[^=]|,[^(]*=)|for\b[^:]*\b{name}[^:]* in )"
         lines = text.splitlines()
@@ -140,7 +169,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
             read = [n for n in through if re.search(rf"\b{called}\b", lines[n - 1])]
             if read and places[0] < read[-1]:
                 return f"{called} has no value there: none of the ways that the lines above it went gives it one"
-            return f"{called} is defined below its use: move its line up"
+            return late(called, itself=bool(read) and places[0] == read[-1])
         return undefined(called, (name for name in known if not name.startswith("_")))
     if isinstance(error, AttributeError):
         name, kind = str(error.name or ""), type(error.obj)
@@ -212,6 +241,14 @@ _HINTS = {
 }
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
 _MEANT = {  # by the line that cannot be read
+    r"[·×⋅∙]": _PRODUCT,
+    r"[−–]": "a minus is written -",
+    r"[²³⁴]": "a power is written **",
+    r"√": "a root is written sqrt(..)",
+    r"°": "an angle in degrees is written 30 * deg",
+    r"[≤≥≠]": "comparisons are written <=, >= and !=",
+    r"[“”„«»‘’]": 'a text stands between " and "',
+    r"\|[^|]+\|": "an absolute value is written abs(..)",
     r":=": "a definition is written =, not :=",
     r"\d,\d": "a decimal number has a point, not a comma",
     r"\d\s*[A-Za-z_(]|[\w)\]]\s+[\w(]": "is a * missing?",
