@@ -17,6 +17,7 @@ from test_page import choose, choose_by_keys
 from mechsheet import __main__ as launcher
 from mechsheet.document.left_out import left_out
 from mechsheet.page import editor as told_by
+from mechsheet.page import in_place, notebook
 from mechsheet.worksheet import source
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.source import of_texts
@@ -408,6 +409,14 @@ def test_units_of_a_worksheet_without_inputs_are_checked(unit, told):
     assert [note.partition(", ")[2] for note in notes] == told
 
 
+def test_a_unit_that_is_not_known_is_told_once_as_one_types():
+    line = "A = 2 * g.L  # [m] twice"
+    found = bar(f"{line}\ntypeset()")
+    cells = [notebook.Cell(**vars(cell)) for cell in found.cells]
+    shown = in_place._computed(cells, "A", line, "A = 2 * g.L  # [mn] twice", False, found.names)
+    assert shown.count("unit [mn] is not known; nearest: ") == 1
+
+
 def test_units_are_not_checked_while_the_inputs_are_not_there():
     found = Cells(IMPORTS, GIVEN, "g = Bar(L=1 / 0)", "A = 2 * g.L  # [N] twice\ntypeset()")
     assert list(told_by.unfit(found.cells, found.names)) == []
@@ -445,6 +454,23 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
     ]
     right = bar("S_1 = 2 * g.L")
     assert [*told_by.unknown(right.cells, right.names), *told_by.failed(right.cells)] == []
+
+
+def test_cells_that_need_each_other_are_told_once_where_they_can_be_parted():
+    found = bar("a = b", "b = a", "c = b")
+    notes = found.texts(told_by.unknown(found.cells, {**found.names, "a": 1, "b": 1}))
+    assert notes == ["c3: line 1, a = b: a and b need each other: neither can be computed first"]
+    found = bar("a = 2 * d", "d = 1\nb = a", "e = d")
+    notes = found.texts(told_by.unknown(found.cells, {**found.names, "a": 1}))
+    assert notes == ["c4: line 2, b = a: a needs d of the same cell: what needs a needs a cell of its own"]
+
+
+def test_a_name_that_its_own_cell_gives_too_late_is_told():
+    found = bar("a = 2 * a", "b = c\nc = 1")
+    assert found.texts(told_by.failed(found.cells, {"a", "b", "c"})) == [
+        "c3: line 1, a = 2 * a: a is computed from itself",
+        "c4: line 1, b = c: c is defined below its use: move its line up",
+    ]
 
 
 def test_what_waits_for_a_deleted_cell_is_told_in_one_line():
@@ -591,6 +617,21 @@ def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):
     choose(page, table.locator("th ms-unit").first, "°")
     expect(row.locator("td").first).to_have_text("90.0")
     editor.expect_last_moment("420")
+
+
+def test_what_a_file_that_was_changed_elsewhere_defines_no_more_is_shown_nowhere(editor):
+    """A cell that went shows nothing, and what rests on it neither: its numbers would be those of before."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before = file.read_text(encoding="utf-8")
+    first, last = (before.index(f"@app.cell{text}") for text in ("\ndef load_cases", "(hide_code=True)\ndef section_3"))
+    file.write_text(before[:first] + before[last:], encoding="utf-8")
+    page.locator(
+        ".ms-title a", has_text="the cell that defines strong, M_n, sigma has a mistake or was deleted"
+    ).wait_for()
+    expect(page.locator(".ms-summary")).to_have_count(0)
+    expect(page.locator(".ms-table")).to_have_count(0)
+    file.write_text(before, encoding="utf-8")
+    editor.expect("2 of 2 checks pass")
 
 
 def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chromium):

@@ -11,7 +11,7 @@ import pytest
 from conftest import ROOT
 from hypothesis import settings
 
-from mechsheet.page import in_place, values
+from mechsheet.page import in_place, notebook, values
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
@@ -143,6 +143,18 @@ def test_what_is_no_line_is_refused_in_words(name: str, new: str, says: str) -> 
         edited(name, new)
 
 
+def test_what_could_not_be_computed_first_is_refused() -> None:
+    """Its cells would not be run: they would show what was before, and nothing could be taken back."""
+    with pytest.raises(
+        SheetError, match="phi_max needs M of the same cell: what needs phi_max needs a cell of its own"
+    ):
+        edited("phi", "phi = linspace(0, phi_max, 7)  # [deg] angle")
+    with pytest.raises(SheetError, match="M and phi_max need each other: neither can be computed first"):
+        edited("M", "def M(phi):\n    return g.F * g.L * sin(phi - phi_max)  # [N*m] moment")
+    circular = TEMPLATE.replace("(0, pi / 2, 7)", "(0, phi_max, 7)").replace("moment(g)", "moment(g, phi_max)")
+    assert "2 * M(phi)" in edited("M_S", "M_S = 2 * M(phi)", text=circular), "what is mended line by line"
+
+
 def test_a_line_that_is_another_one_by_now_is_left_alone() -> None:
     with pytest.raises(SheetError, match="the line of n has changed since"):
         change(TEMPLATE, "n", "n = 1  # [-] levers", "n = 3")
@@ -189,6 +201,19 @@ def test_where_a_line_has_no_number_is_told_as_one_types() -> None:
     assert f"{values.NOTE} no number at 1 of 3 places: 1" in shown
     shown = in_place._computed((), "k", "k = 1", "k = sqrt(x)  # [-] root", False, dict(names))
     assert values.NOTE not in shown
+
+
+def test_what_has_no_value_yet_in_its_cell_has_none_as_one_types() -> None:
+    """The page has one of before: the line itself would not."""
+    cells = [notebook.Cell("c", "a = 1\nk = 2 * a\nb = k", "c", frozenset("akb"), frozenset(), "success", None, False)]
+
+    def shown(new: str, below: bool = False) -> str:
+        return in_place._computed(cells, "k", "k = 2 * a", f"{new}  # [-] n", below, {"a": 7, "k": 7, "b": 7})
+
+    assert "k is computed from itself" in shown("k = 2 * k")
+    assert "b is defined below its use: move its line up" in shown("k = 2 * b")
+    assert "b is defined below its use: move its line up" in shown("n = k * b", below=True)
+    assert values.MISTAKE not in shown("k = 3 * a") + shown("n = k * a", below=True)
 
 
 def test_what_computes_for_long_as_one_types_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,6 +18,7 @@ from mechsheet.page import notebook
 from mechsheet.recording import dimensions
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.cells import Cell, Worksheet, compiled
+from mechsheet.worksheet.depending import circle, depending
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand, declared_in, inputs_of
@@ -76,7 +77,7 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
 def unknown(
     cells: Iterable[notebook.Cell], names: Mapping[str, Any], gone: Mapping[str, str] = _NONE
 ) -> Iterator[Note]:
-    """Names that a cell reads and none defines or two do, and inputs that there are not.
+    """Names that a cell reads and none defines or two do, or that need each other, and inputs that there are not.
 
     What was defined before, by a cell that has a mistake now or is deleted, is in ``gone`` with the id of that cell:
     all that waits for it is told at once.
@@ -84,7 +85,7 @@ def unknown(
     cells, waiting = list(cells), dict[str, list[tuple[str, str, str]]]()
     defined = {name for cell in cells for name in cell.defs} | set(names)
     twice = [name for name, count in Counter(name for cell in cells for name in cell.defs).items() if count > 1]
-    fields = [field.name for field in getattr(type(names.get("g")), "__inputs__", ())]
+    fields = mistakes.inputs_of(names)
     for cell in cells:
         if names_twice := sorted(cell.defs.intersection(twice)):
             yield Note(cell.cell_id, mistakes.twice(*names_twice))
@@ -96,7 +97,7 @@ def unknown(
                     why = mistakes.no_input(node.attr, fields)
             elif node.id in missing:
                 missing = missing - {node.id}  # told once a cell
-                why = mistakes.undefined(node.id, defined)
+                why = mistakes.undefined(node.id, defined, fields)
                 if node.id in gone:
                     place = cell.cell_id, _line(cell, node.lineno), node.id
                     waiting.setdefault(gone[node.id], []).append(place)
@@ -104,6 +105,18 @@ def unknown(
             if why:
                 yield Note(cell.cell_id, f"{_line(cell, node.lineno)}: {why}")
     yield from map(_lost, waiting.values())
+    yield from _circular(cells)
+
+
+def _circular(cells: Sequence[notebook.Cell]) -> Iterator[Note]:
+    """One of the cells that need each other, none of which marimo runs: rather one that could be two cells."""
+    found = ((cell, circle(cell, (c for c in cells if c is not cell), ast.parse(cell.code).body)) for cell in cells)
+    told = set[str]()
+    for cell, why in sorted(((cell, why) for cell, why in found if why), key=lambda each: each[1].whole):
+        if told.isdisjoint(cell.defs):
+            told |= depending(cells, cell.defs)
+            line = next(node.lineno for node in _read(cell.code) if isinstance(node, ast.Name) and node.id == why.name)
+            yield Note(cell.cell_id, f"{_line(cell, line)}: {why}")
 
 
 def _lost(waiting: Sequence[tuple[str, str, str]]) -> Note:
@@ -120,7 +133,7 @@ def _lost(waiting: Sequence[tuple[str, str, str]]) -> Note:
 def failed(cells: Iterable[notebook.Cell], gone: Iterable[str] = ()) -> Iterator[Note]:
     """What else Python could not compute, with the line of the cell; what waits for names that are ``gone`` is told."""
     for cell in cells:
-        if isinstance(cell.exception, NameError) and (cell.exception.name or "") in gone:
+        if isinstance(cell.exception, NameError) and (cell.exception.name or "") in {*gone} - cell.defs:
             continue
         if cell.status == "exception" and isinstance(cell.exception, Exception):
             lines = [line for frame, line in walk_tb(cell.exception.__traceback__) if _is_of(frame, cell)]
@@ -158,10 +171,10 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     others = {name for cell in ran for name in cell.refs if is_of_studies(names.get(name))}
     known = registry(names, source.of_texts(tuple((cell.code, cell.filename) for cell in ran)))
     measured = {name for name, value in names.items() if isinstance(value, units.Constant) or value is units}
-    setup = _setup(ran, notebook.depending(ran, {*given, *_functions(ran)}))
+    setup = _setup(ran, depending(ran, {*given, *_functions(ran)}))
     of_setup = {name for n in setup for name in ran[n].defs}
-    by_inputs = notebook.depending(ran, {*given, *_functions(ran), *measured, *known})
-    computed = by_inputs - of_setup - notebook.depending(ran, others)
+    by_inputs = depending(ran, {*given, *_functions(ran), *measured, *known})
+    computed = by_inputs - of_setup - depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
     recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {*given}))
     assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))

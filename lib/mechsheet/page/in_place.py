@@ -13,6 +13,7 @@ from copy import deepcopy
 from ctypes import c_ulong, py_object, pythonapi
 from dataclasses import replace
 from html import escape
+from itertools import chain
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -159,6 +160,8 @@ def _run(text: str, names: dict[str, Any]) -> None:
 def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, below: bool, names: dict[str, Any]) -> str:
     """HTML of a formula computed with the names of the page, and its mistakes."""
     known, told, bound = set(names), list[str](), declares(ast.parse(new).body[0])
+    late = _later(cells, name, was, below)
+    names = {each: value for each, value in names.items() if each not in late}
     rows = formulas(source.of_texts(((new, _FILE),))[0])
     read = {node.id for node in ast.walk(ast.parse(new)) if isinstance(node, ast.Name)}
     names |= {each: deepcopy(names[each]) for each in read if isinstance(names.get(each), _ALTERED)}
@@ -169,18 +172,32 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
             _run(new, names)
             told += filter(None, (no_number(row, names[row.name]) for row in rows if isinstance(row, Formula)))
         except Exception as error:
-            told.append(mistakes.why(error, known, new))
+            lacks = str(error.name) if isinstance(error, NameError) else ""
+            why = mistakes.why(error, known, new, mistakes.inputs_of(names))
+            told.append(mistakes.late(lacks, lacks in bound) if lacks in late else why)
     there = tuple(row for row in rows if not told or not isinstance(row, Formula))
     numbers = tuple(names[row.name] if isinstance(row, Formula) else None for row in there)
     shown = values.html(Typeset(there, numbers, (), Numbers(names)))
     if not told:
         shown += "".join(values.html(names[each]) for each in sorted(bound) if isinstance(names[each], Shown))
-        told += _unfit(cells, name, was, f"{was}\n{new}" if below else new, new, names)
+        said = {row.mistake for row in rows if isinstance(row, Formula)}  # which stands behind its value
+        unfit = _unfit(cells, name, was, f"{was}\n{new}" if below else new, new, names)
+        told += (text for text in unfit if text.partition(": ")[2] not in said)
         if not shown:
             told.append("it is not shown in the document: end the line in # [unit] meaning")
         own = {row.name: row for row in rows if isinstance(row, Formula) and row.has_value}
         shown += "".join(f"<div>{values.NOTE} {escape(where)}</div>" for _, where in numberless(names, own))
     return shown + "".join(map(_mistake, told))
+
+
+def _later(cells: Iterable[notebook.Cell], name: str, was: str, below: bool) -> set[str]:
+    """Names that the cell of a line gives in this line, or below it, and not above: the line cannot read them."""
+    for cell in cells:
+        if name in cell.defs and was in cell.code:
+            body = ast.parse(cell.code).body
+            at = next((n for n, node in enumerate(body) if name in declares(node)), len(body)) + below
+            return {*chain(*map(source.bound, body[at:]))}.difference(*map(source.bound, body[:at]))
+    return set()
 
 
 def _unfit(

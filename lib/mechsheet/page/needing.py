@@ -4,9 +4,9 @@ import ast
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
-from mechsheet.page.notebook import depending
 from mechsheet.page.waiting import headings, short
 from mechsheet.worksheet import source
+from mechsheet.worksheet.depending import depending, read
 from mechsheet.worksheet.line_edit import declares
 
 _CAPTIONED = ("table", "figure")
@@ -53,11 +53,8 @@ def some(places: Iterable[str]) -> list[str]:
 
 
 def _read(line: ast.stmt) -> set[str]:
-    """Names that a line reads, and inputs; none that a function has as its arguments."""
-    nodes = source.nodes(line)
-    own = {node.arg for node in nodes if isinstance(node, ast.arg)}
-    names = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
-    return (names - own) | {ast.unparse(node) for node in nodes if isinstance(node, ast.Attribute)}
+    """Names that a line reads, and inputs."""
+    return read(line) | {ast.unparse(node) for node in source.nodes(line) if isinstance(node, ast.Attribute)}
 
 
 def _captions(node: ast.AST) -> list[str]:

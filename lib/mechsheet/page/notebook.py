@@ -4,12 +4,12 @@ A version of marimo that keeps them otherwise makes `running` raise `Unlike`, an
 """
 
 import ast
-from collections.abc import AsyncIterator, Callable, Iterable, Mapping, Set
+from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import marimo as mo
 
@@ -32,24 +32,6 @@ class Cell:
     status: str | None
     exception: object
     busy: bool
-
-
-class Reading(Protocol):
-    """What reads names and defines others: a cell, or a line of one."""
-
-    @property
-    def refs(self) -> Set[str]: ...
-
-    @property
-    def defs(self) -> Set[str]: ...
-
-
-def depending(parts: Iterable[Reading], names: Iterable[str]) -> set[str]:
-    """Names that depend on some names, and these."""
-    found, parts = set(names), list(parts)
-    while more := {name for part in parts if part.refs & found for name in part.defs} - found:
-        found |= more
-    return found
 
 
 def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
@@ -146,6 +128,38 @@ def tell_of_failures(
 
     with suppress(AttributeError):
         _KERNEL_LIFESPAN_REGISTRY.register("mechsheet", page)
+
+
+def compute_what_has_lost() -> None:
+    """Let the calling page of the editor compute what reads a name that the file, changed elsewhere, defines no more.
+
+    marimo forgets of which cells that is once it has taken the file over: they would show their former numbers. Where
+    this version of marimo keeps its cells otherwise, they do.
+    """
+    try:
+        from marimo._runtime.context import get_context  # on use: a version may lack it
+
+        kernel: Any = get_context()._kernel  # type: ignore[attr-defined]
+        take_over, change = kernel.sync_graph, kernel.mutate_graph
+    except (ImportError, AttributeError):
+        return
+    if "sync_graph" in vars(kernel):  # of an earlier run of the cell
+        return
+
+    async def taken_over(*cells: Any, **more: Any) -> None:
+        waiting = set[Any]()
+
+        def changed(*requests: Any, **options: Any) -> set[Any]:
+            waiting.update(change(*requests, **options))
+            return waiting.intersection(kernel.graph.cells)
+
+        kernel.mutate_graph = changed
+        try:
+            await take_over(*cells, **more)
+        finally:
+            kernel.mutate_graph = change
+
+    kernel.sync_graph = taken_over
 
 
 def run_what_is_written(server: Any) -> None:

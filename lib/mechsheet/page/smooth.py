@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mechsheet import units
 from mechsheet.page import editor, notebook
 from mechsheet.worksheet.cells import Cell, Worksheet, base, value
+from mechsheet.worksheet.depending import depending
 from mechsheet.worksheet.table import MARKED, Column, Figure
 from mechsheet.worksheet.typeset import typeset
 from mechsheet.worksheet.verdict import values_only
@@ -64,7 +65,7 @@ def _run(
     """Namespace with the curves of a figure at other positions; None where one of them does not depend on these."""
     across, wanted = figure.x.want, {base(line.want) for line in figure.lines}
     cells = tuple(map(partial(_without, name=across), cells))
-    computed = notebook.depending(cells, {across}) - {across}
+    computed = depending(cells, {across}) - {across}
     if not wanted <= computed:
         return None
     again = [cell for cell in cells if cell.defs & computed]

@@ -58,6 +58,8 @@ def written(value: object) -> tuple[str, str]:
         text = failed(f"this {type(value).__name__} cannot be shown: {mistakes.why(error, ())}", ends=False)
     titled = mo.running_in_notebook() and notebook.shows("title_block")
     if mo.running_in_notebook() and (isinstance(value, Title) or (not titled and notebook.is_first())):
+        if mo.app_meta().mode == "edit":
+            notebook.compute_what_has_lost()
         return "text/html", needed(notebook.file()) + text
     placed = _placed(value) and not _HEADED.search(text)
     shown = placed and mo.app_meta().mode == "run" and titled

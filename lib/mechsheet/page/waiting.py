@@ -5,8 +5,9 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from mechsheet.page.headings import heading
-from mechsheet.page.notebook import Cell, depending
+from mechsheet.page.notebook import Cell
 from mechsheet.worksheet import source
+from mechsheet.worksheet.depending import depending
 
 _HEADING = re.compile(r"^\s*#{2,6} +(\S.*?)\s*$", re.MULTILINE)
 

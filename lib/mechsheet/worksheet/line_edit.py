@@ -17,6 +17,7 @@ from typing import NamedTuple, TypeAlias
 
 from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.cells import defines, read_outside
+from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.source import bound, functions, is_app
 
@@ -61,7 +62,8 @@ def line(text: str, name: str) -> str:
 def change(text: str, name: str, was: str, new: str, below: bool = False) -> Change:
     """The change of the file in which ``new`` stands in place of the line ``was`` of a name, or ``below`` it.
 
-    Without a text the line goes. Raises SheetError where the line is another one by now, or ``new`` is no such line.
+    Without a text the line goes. Raises SheetError where the line is another one by now, ``new`` is no such line, or
+    needs what needs its cell.
     """
     place = _place(text, name)
     if place.line != was:
@@ -82,7 +84,9 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
         whole = text.replace(place.cell, made)
         made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
     found = Change(place.cell, made)
-    found.of(text)
+    now = _circle(_parsed(found.of(text)), place.cell_number)
+    if now and not _circle(_parsed(text), place.cell_number):
+        raise SheetError(now)
     return found
 
 
@@ -296,6 +300,16 @@ def _reads(tree: ast.Module, number: int) -> set[str]:
     text = ast.unparse(ast.fix_missing_locations(ast.Module([bare], [])))
     read = set(read_outside(symtable(text, "", "exec").get_children()[0]))
     return read & {name for other in cells if other is not node for name in defines(other.body)}
+
+
+def _circle(tree: ast.Module, number: int | None) -> str:
+    """Why a cell cannot be computed before all that needs it; nothing where it can, and of a class."""
+    if number is None:
+        return ""
+    cells = list(functions(tree))
+    parts = [Part({a.arg for a in node.args.args}, set(defines(node.body))) for node in cells]
+    found = circle(parts[number], parts[:number] + parts[number + 1 :], cells[number].body)
+    return str(found) if found else ""
 
 
 def _bodies(tree: ast.Module) -> Iterator[Sequence[ast.stmt]]:
