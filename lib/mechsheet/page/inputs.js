@@ -204,7 +204,9 @@
 
     enable() {
       const changed = this.given.length > 0;
-      const can = { undo: at > 0 || this.refused, redo: at < steps.length - 1, back: changed || this.refused, scene: changed };
+      const { refused } = this; // then what link and scene would carry is of before, and not what the fields say
+      const can = { undo: at > 0 || refused, redo: at < steps.length - 1, back: changed || refused };
+      Object.assign(can, { link: !refused, scene: changed && !refused });
       Object.entries(can).forEach(([name, is]) => (this.querySelector(`[name=${name}]`).disabled = !is));
     }
 
