@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import until
+from conftest import SIZE, until
 from playwright.sync_api import expect
 
 WORKSHEETS = Path(__file__).parents[1] / "worksheets"
@@ -40,6 +40,15 @@ def test_every_worksheet_is_opened():
 
 def tables(page) -> str:
     return "\n".join(page.locator(".ms-table").all_text_contents())
+
+
+def assert_fits_a_telephone(page) -> None:
+    """What is wider is moved under the hand by itself, and not the page with it."""
+    page.set_viewport_size({"width": 400, "height": 900})
+    page.evaluate("document.documentElement.classList.add('ms-measure')")
+    until(page, lambda: page.evaluate("document.querySelector('#App').scrollWidth") == 400, "the page is wider")
+    page.evaluate("document.documentElement.classList.remove('ms-measure')")
+    page.set_viewport_size(SIZE)
 
 
 def assert_fits_on_paper(page) -> None:
@@ -80,6 +89,7 @@ def test_opens_and_reacts(name, left_open, tmp_path):
     assert passed == checks
     assert page.evaluate(CUT) == []
     assert_fits_on_paper(page)
+    assert_fits_a_telephone(page)
     before = tables(page)
     field = page.locator(f".ms-inputs tr:has-text('{meaning}') input").first
     field.fill(value)
