@@ -103,6 +103,19 @@ def test_the_file_is_found_from_any_folder(engine: Path, tmp_path: Path, folder:
     assert (tmp_path / folder / "engine.xlsx").exists()
 
 
+def test_a_file_that_has_changed_is_read_again(engine: Path) -> None:
+    """As in a session of Python, or behind a page that is open: what was read before would be computed with."""
+    file = engine.with_name("gas.csv")
+    text, work = file.read_text(encoding="utf-8"), evaluate(engine, ["W"])["W"]
+    file.write_text(f"{text}30;0,8;4\n", encoding="utf-8")
+    assert evaluate(engine, ["W"])["W"] == pytest.approx(work + 4e5 * 4e-4, rel=1e-14)
+    file.unlink()
+    with pytest.raises(SheetError, match=r"gas\.csv cannot be read"):
+        load(engine)
+    file.write_text(text, encoding="utf-8")
+    assert evaluate(engine, ["W"])["W"] == work
+
+
 def test_another_file_is_given_by_a_scene_beside_it(engine: Path, tmp_path: Path) -> None:
     book = Workbook()
     for row in (["V [cm**3]", "p [MPa]"], [100, 3], [300, "1,5"]):

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.worksheet import mistakes, source
+from mechsheet.worksheet import data_file, mistakes, source
 from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
 from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
@@ -242,7 +242,7 @@ def results(path: str | Path, certain: bool = False) -> list[str]:
 
 
 def load(path: str | Path) -> Worksheet:
-    """Cells of a worksheet file; read again when the file changes.
+    """Cells of a worksheet file; read again when the file changes, or a file of numbers that it names.
 
     Raises SheetError where the file cannot be read or is no Python.
     """
@@ -250,7 +250,8 @@ def load(path: str | Path) -> Worksheet:
         raise SheetError(f"worksheet = {as_given(path)} must be a path")
     path = Path(path).resolve()
     try:
-        return _load(path, path.stat().st_mtime_ns)
+        changed = path.stat().st_mtime_ns
+        return _load(path, changed, tuple(map(data_file.state, _data(path, changed))))
     except OSError as error:
         raise SheetError(f"worksheet {path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
@@ -260,7 +261,12 @@ def load(path: str | Path) -> Worksheet:
 
 
 @lru_cache(maxsize=32)
-def _load(path: Path, _changed: int) -> Worksheet:
+def _data(path: Path, _changed: int) -> tuple[Path, ...]:
+    return tuple(data_file.named(path.read_text(encoding="utf-8"), path.parent))
+
+
+@lru_cache(maxsize=32)
+def _load(path: Path, _changed: int, _data_changed: tuple[object, ...]) -> Worksheet:
     return read(path)
 
 

@@ -6,7 +6,7 @@ The first row has the names of the columns, each with its unit behind it: ``phi 
 
 import csv
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,6 +16,7 @@ from mechsheet.worksheet.errors import SheetError, cut
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
 _HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)
 _MOST = 100_000  # rows that are looked at
 
 
@@ -33,6 +34,21 @@ def from_file(name: str) -> Any:
     declares, by their names; a scene or an argument may name another file.
     """
     return DataFile(name)
+
+
+def named(text: str, folder: Path) -> Iterator[Path]:
+    """Files of numbers that the text of a worksheet names, in the current folder and beside it."""
+    for name in dict.fromkeys(_NAME.findall(text)):
+        yield from (Path(name), folder / name)
+
+
+def state(path: Path) -> object:
+    """What is another one once a file has changed, is there or is gone."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size
 
 
 class Columns(NamedTuple):
