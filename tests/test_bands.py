@@ -3,6 +3,7 @@
 import re
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from playwright.sync_api import expect
 
 from mechsheet.document import parts
 from mechsheet.page import study
+from mechsheet.page.of_file import refusing_another
 from mechsheet.readers.banded import Banded, run_bands
 from mechsheet.readers.bands import Band, Bands, tolerances
 from mechsheet.readers.enclosed import enclosed
@@ -489,6 +491,26 @@ def test_the_page_writes_bands_as_the_numbers_that_they_stand_behind():
     assert told(np.radians(1.7)) == "± 1.7°"
     assert told(np.radians(0.2), np.radians(2e-5)) == "± up to 0.2°"
     assert told(np.radians(2e-9)) == "± 2·10⁻⁹°"
+
+
+def test_a_page_whose_file_is_another_one_by_now_asks_nothing_of_it(tmp_path, monkeypatch):
+    """Of a page that is open while its worksheet is edited: bands and proofs would be those of other formulas."""
+    from marimo._ast.load import load_app
+
+    sheet, text = tmp_path / "guide.py", GUIDE.read_text(encoding="utf-8")
+    sheet.write_text(text, encoding="utf-8")
+    codes = [SimpleNamespace(code=code) for code in load_app(sheet)._cell_manager.codes()]
+    monkeypatch.setattr(study.notebook, "running", lambda: (lambda: codes, {}))
+    asked = study.Asked((), lambda: None, lambda of, at: (), lambda told: "", dict)
+    page = study.Study(asked, {"__file__": str(sheet)}, lambda: None)
+    page.refuse_another = refusing_another(page.namespace)
+    before = page.state()
+    assert page.answer() == "" and page.state()[-2] is before[-2]
+    sheet.write_text(text.replace("H = 2 * g.r", "H = 3 * g.r"), encoding="utf-8")
+    assert page.state()[-2] is not before[-2], "so it is asked again"
+    assert "the file of this worksheet is another one than this page" in page.answer()
+    sheet.unlink()
+    assert "is another one than this page" in page.answer() and page.state()
 
 
 def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, console_errors):

@@ -15,6 +15,7 @@ import marimo as mo
 
 from mechsheet import units
 from mechsheet.document.markup import message
+from mechsheet.page.of_file import refusing_another
 from mechsheet.page.script import element, script
 from mechsheet.worksheet import mistakes, numbers
 from mechsheet.worksheet.errors import SheetError
@@ -57,6 +58,7 @@ class Design:
         self.designing, self.namespace, self.redraw = designing, namespace, redraw
         self.field = mo.ui.text_area(on_change=self.asked)
         self.number, self.told = 0, ""
+        self.refuse_another: Callable[[], None] = lambda: None
 
     @property
     def text(self) -> str:
@@ -73,6 +75,7 @@ class Design:
         """Look for the design of some options, as JSON with a number of its own: the page goes on meanwhile."""
         options = json.loads(text)["options"]
         self.number += 1
+        self.refuse_another = refusing_another(self.namespace)
         mo.Thread(target=self.look, args=(self.number, options), daemon=True).start()
 
     def look(self, number: int, options: Sequence[str]) -> None:
@@ -116,6 +119,7 @@ class Design:
     def answer(self, options: Sequence[str], done: Done) -> str:
         """HTML of what it would take, or why it cannot be had."""
         try:
+            self.refuse_another()
             found = self.designing.answer(options, done)
         except _Superseded:
             raise

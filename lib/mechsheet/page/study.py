@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import partial
 from html import escape
+from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 from uuid import uuid4
 
@@ -21,10 +22,12 @@ from mechsheet.document.chart import line_chart
 from mechsheet.document.markup import message
 from mechsheet.document.shortened import rows, shortened
 from mechsheet.page import notebook, own, values
+from mechsheet.page.of_file import refusing_another
 from mechsheet.page.script import element, script
 from mechsheet.page.smooth import smooth
 from mechsheet.readers.banded import NOTE, Banded, RunBands, about, off
 from mechsheet.worksheet import mistakes, numbers
+from mechsheet.worksheet.data_file import state
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.no_inputs import declared_in
 from mechsheet.worksheet.table import Column, Figure, Table
@@ -61,6 +64,8 @@ class Study:
         self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
         self.own = mo.ui.checkbox(label="what differs from the document", on_change=self.changed)
         self.told, self.looking, self.part = "", False, 0.0
+        self.written: object = None
+        self.refuse_another: Callable[[], None] = lambda: None
 
     @property
     def text(self) -> str:
@@ -73,7 +78,7 @@ class Study:
     def changed(self, _: object) -> None:
         """Follow the page from now on, as long as anything is asked for."""
         if not self.looking:
-            self.looking = True
+            self.looking, self.refuse_another = True, refusing_another(self.namespace)
             try:
                 cells, _ = notebook.running()
                 cells()
@@ -115,14 +120,17 @@ class Study:
         return bool(self.own.value or self.bands.value or self.result.value or self.proof.value)
 
     def state(self) -> list[Any]:
-        """What an answer rests on."""
+        """What an answer rests on; the same objects as long as that is the same."""
         asked = (self.own.value, self.bands.value, self.result.value, self.position.value, self.proof.value)
-        return [*asked, *self.namespace.values()]
+        written = state(Path(self.namespace["__file__"]))
+        self.written = self.written if self.written == written else written
+        return [*asked, self.written, *self.namespace.values()]
 
     def answer(self) -> str:
         """HTML of what is asked for, or why there is none."""
         parts = list[str]()
         try:
+            self.refuse_another()
             if self.own.value:
                 parts.append(own.html(_elsewhere(self.asked.own)))
             if self.proof.value:
