@@ -66,6 +66,13 @@ def test_signs_of_print_are_told_as_they_are_written(line: str) -> None:
     assert mistakes.unread(found.value).endswith(f"({SIGNS[line]})")
 
 
+@pytest.mark.parametrize("sign", ["=", ":="])
+def test_a_function_as_mathcad_has_it_is_told_as_it_is_written(sign: str) -> None:
+    with pytest.raises(SyntaxError) as found:
+        compile(f"M(phi, S) {sign} 2 * phi * S", "", "exec")
+    assert mistakes.unread(found.value) == "a function is written M = lambda phi, S: .."
+
+
 def test_a_name_that_is_to_be_imported_is_told_from_where() -> None:
     """Rather than one that is like it."""
     known = ["sin", "check", "sinus"]

@@ -215,6 +215,8 @@ def unread(error: SyntaxError) -> str:
     text = (error.text or "").partition("#")[0]
     if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate argument")):  # which say enough
         return error.msg
+    if function := _FUNCTION.match(text):
+        return f"a function is written {function[1]} = lambda {function[2]}: .."
     return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
 
 
@@ -240,6 +242,7 @@ _HINTS = {
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
+_FUNCTION = re.compile(r"\s*([^\W\d]\w*)\(([\w\s,]+)\)\s*:?=(?!=)")  # as Mathcad has it
 _MEANT = {  # by the line that cannot be read
     r"[·×⋅∙]": _PRODUCT,
     r"[−–]": "a minus is written -",
