@@ -115,8 +115,8 @@ def _circular(cells: Sequence[notebook.Cell]) -> Iterator[Note]:
     for cell, why in sorted(((cell, why) for cell, why in found if why), key=lambda each: each[1].whole):
         if told.isdisjoint(cell.defs):
             told |= depending(cells, cell.defs)
-            line = next(node.lineno for node in _read(cell.code) if isinstance(node, ast.Name) and node.id == why.name)
-            yield Note(cell.cell_id, f"{_line(cell, line)}: {why}")
+            places = (node.lineno for node in _read(cell.code) if isinstance(node, ast.Name) and node.id == why.name)
+            yield Note(cell.cell_id, f"{_line(cell, next(places, 1))}: {why}")
 
 
 def _lost(waiting: Sequence[tuple[str, str, str]]) -> Note:

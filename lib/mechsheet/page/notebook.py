@@ -130,7 +130,7 @@ def tell_of_failures(
         _KERNEL_LIFESPAN_REGISTRY.register("mechsheet", page)
 
 
-def compute_what_has_lost() -> None:
+def compute_what_lost_a_name() -> None:
     """Let the calling page of the editor compute what reads a name that the file, changed elsewhere, defines no more.
 
     marimo forgets of which cells that is once it has taken the file over: they would show their former numbers. Where

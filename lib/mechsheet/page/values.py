@@ -59,7 +59,7 @@ def written(value: object) -> tuple[str, str]:
     titled = mo.running_in_notebook() and notebook.shows("title_block")
     if mo.running_in_notebook() and (isinstance(value, Title) or (not titled and notebook.is_first())):
         if mo.app_meta().mode == "edit":
-            notebook.compute_what_has_lost()
+            notebook.compute_what_lost_a_name()
         return "text/html", needed(notebook.file()) + text
     placed = _placed(value) and not _HEADED.search(text)
     shown = placed and mo.app_meta().mode == "run" and titled

@@ -47,7 +47,10 @@ class Circle(NamedTuple):
 
 def circle(cell: Reading, others: Iterable[Reading], body: Sequence[ast.stmt]) -> Circle | None:
     """Why a cell of the lines ``body`` cannot be computed before all that needs it; None where it can."""
-    others, lines, refs = list(others), [Part(read(line), set(bound(line))) for line in body], cell.refs - cell.defs
+    others, refs = list(others), cell.refs - cell.defs
+    if refs.isdisjoint(depending(others, cell.defs)):
+        return None
+    lines = [Part(read(line), set(bound(line))) for line in body]
     pairs = [(name, own) for own in sorted(cell.defs) for name in sorted(refs & depending(others, {own}))]
     found = [Circle(name, own, own in depending(lines, {name})) for name, own in pairs]
     return max(found, key=lambda each: each.whole, default=None)
