@@ -630,6 +630,15 @@ def test_what_a_file_that_was_changed_elsewhere_cannot_give_is_shown_nowhere(edi
     expect(page.locator(".ms-table")).to_have_count(0)
     file.write_text(before, encoding="utf-8")
     editor.expect("2 of 2 checks pass")
+    first, last = (before.index(f"@app.cell{text}") for text in ("\ndef load_cases", "(hide_code=True)\ndef section_3"))
+    file.write_text(before[:first] + before[last:], encoding="utf-8")
+    page.locator(
+        ".ms-title a", has_text="the cell that defines strong, M_n, sigma has a mistake or was deleted"
+    ).wait_for()
+    expect(page.locator(".ms-summary")).to_have_count(0)
+    expect(page.locator(".ms-table")).to_have_count(0)
+    file.write_text(before, encoding="utf-8")
+    editor.expect("2 of 2 checks pass")
 
 
 def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chromium):

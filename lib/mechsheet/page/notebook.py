@@ -4,12 +4,14 @@ A version of marimo that keeps them otherwise makes `running` raise `Unlike`, an
 """
 
 import ast
+import builtins
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 import marimo as mo
 
@@ -131,35 +133,40 @@ def tell_of_failures(
 
 
 def compute_what_lost_a_name() -> None:
-    """Let the calling page of the editor compute what reads a name that the file, changed elsewhere, defines no more.
+    """Let the calling page of the editor compute again what reads a name that no cell defines any more.
 
-    marimo forgets of which cells that is once it has taken the file over: they would show their former numbers. Where
-    this version of marimo keeps its cells otherwise, they do.
+    marimo does not where the file was changed elsewhere: these cells would show their former numbers, as they do where
+    this version of marimo keeps its cells otherwise.
     """
     try:
-        from marimo._runtime.context import get_context  # on use: a version may lack it
+        from marimo._runtime.commands import ExecuteCellsCommand  # on use, as all of these: a version may lack it
+        from marimo._runtime.context import get_context  # on use
+        from marimo._runtime.runner.hooks import Priority  # on use
 
         kernel: Any = get_context()._kernel  # type: ignore[attr-defined]
-        take_over, change = kernel.sync_graph, kernel.mutate_graph
+        hooks, graph, ask = kernel._hooks, kernel.graph, kernel.enqueue_control_request
     except (ImportError, AttributeError):
         return
-    if "sync_graph" in vars(kernel):  # of an earlier run of the cell
+    if kernel in _looked_after:
         return
+    _looked_after.add(kernel)
+    asked = dict[Any, object]()
 
-    async def taken_over(*cells: Any, **more: Any) -> None:
-        waiting = set[Any]()
+    def ended(_: Any) -> None:
+        again = list[Any]()
+        for cell_id, cell in graph.cells.items():
+            lost = {name for name in cell.refs if name not in kernel.globals and not hasattr(builtins, name)}
+            state = cell.code, lost
+            if lost and cell.run_result_status == "success" and asked.get(cell_id) != state:
+                asked[cell_id] = state  # it may do without
+                again.append(cell_id)
+        if again:
+            ask(ExecuteCellsCommand(cell_ids=again, codes=[graph.cells[each].code for each in again]))
 
-        def changed(*requests: Any, **options: Any) -> set[Any]:
-            waiting.update(change(*requests, **options))
-            return waiting.intersection(kernel.graph.cells)
+    hooks.add_on_finish(ended, Priority.LATE)
 
-        kernel.mutate_graph = changed
-        try:
-            await take_over(*cells, **more)
-        finally:
-            kernel.mutate_graph = change
 
-    kernel.sync_graph = taken_over
+_looked_after = WeakSet[Any]()  # kernels of pages
 
 
 def run_what_is_written(server: Any) -> None:
