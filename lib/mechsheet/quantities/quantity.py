@@ -79,7 +79,8 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def size(self) -> Any:
-        self.graph.ask_rows(self.re)
+        if type(self) is Quantity:
+            self.graph.ask_rows(self.re)
         return self.count()
 
     @property

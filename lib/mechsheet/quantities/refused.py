@@ -145,10 +145,21 @@ def _exists(graph: Graph, node: Node) -> Node | None:
 
 
 def of_python(value: Any) -> Any:
-    """Numbers that a function of Python gives, and none of numpy."""
-    for each in quantities(value):
-        each.graph.pythons |= dict.fromkeys(each.parts if not each.ndim else (), True)
+    """Numbers that a function of Python gives."""
+    for graph, part in _single(value):
+        graph.pythons[part] = True
     return value
+
+
+def of_numpy(value: Any) -> Any:
+    """Numbers that a function of numpy gives, where the same operation gives none of Python's."""
+    for graph, part in _single(value):
+        graph.pythons.setdefault(part, False)
+    return value
+
+
+def _single(value: Any) -> Iterator[tuple[Graph, Node]]:
+    return ((each.graph, part) for each in quantities(value) if not each.ndim for part in each.parts)
 
 
 def is_pythons(graph: Graph, node: Node) -> bool:

@@ -432,7 +432,7 @@ def length(x: Any) -> Any:
     if isinstance(x, Sifted) and x.pairs:
         return x.of("len")
     first = first_column(x) if isinstance(x, Whole) else x.at if isinstance(x, Texts) else x
-    if isinstance(first, Quantity):
+    if type(first) is Quantity:
         first.graph.ask_rows(first.re)
     return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
 

@@ -27,7 +27,7 @@ from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, 
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
-from mechsheet.quantities.refused import compared, of_library, of_python
+from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
@@ -94,8 +94,7 @@ def instead(value: Any) -> Any:
     if (refusing := instead_of_chance(value)) is not None:
         return refusing
     if isinstance(value, BuiltinFunctionType) and value in MATH:
-        own = _takes(MATH[value], value)
-        return lambda *args, **kwargs: of_python(own(*args, **kwargs))
+        return _takes(MATH[value], value)
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
     if value is np.vectorize:
@@ -291,6 +290,7 @@ BUILTINS = {
 @cache
 def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> Callable[..., Any]:
     """Function of numpy that also takes lists of recorded quantities, and of plain numbers is another one."""
+    mark = of_python if plainly else of_numpy
 
     def function(*args: Any, **kwargs: Any) -> Any:
         args = tuple(list(a) if isinstance(a, _GONE_THROUGH) else a for a in args)
@@ -313,10 +313,10 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
         if f is np.frexp:  # a scale to divide by and to multiply with again: any will do
             return args[0], 0
         if isinstance(f, np.ufunc):
-            return f(*(lift(current.get(), a) for a in args), **kwargs)
+            return mark(f(*(lift(current.get(), a) for a in args), **kwargs))
         if f not in FUNCTIONS and hasattr(f, "_implementation"):  # it would look into lists of quantities
             raise NotRecorded(f"numpy's {f.__name__}")
-        return FUNCTIONS[f](current.get(), *args, **kwargs) if f in FUNCTIONS else f(*args, **kwargs)
+        return mark(FUNCTIONS[f](current.get(), *args, **kwargs) if f in FUNCTIONS else f(*args, **kwargs))
 
     for name in ("reduce", "accumulate", "outer"):
         if isinstance(f, np.ufunc):
