@@ -5,10 +5,11 @@ from collections.abc import Container, Mapping, Sequence
 from typing import Any
 
 from mechsheet.units import shown
-from mechsheet.workbook import looks, sizes
+from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.content import LARGEST, Content, Live, put
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.workbook.sizes import Sizes
 from mechsheet.worksheet.check import Check
 
 _WITHIN = "inputs within their limits"
@@ -69,10 +70,12 @@ def write(
     if formulas and not formulas.arrangement.finite:  # for another condition the format of the numbers has no room
         infinite = {"type": "cell", "criteria": ">=", "value": LARGEST, "format": book.file.add_format(looks.INFINITE)}
         sheet.conditional_format(2, 1, len(listed) + 2, 1, infinite)
+    sizes = Sizes(book, sheet)
     for n, (check, *_) in enumerate(rows, 2):
         if not check.agreement:
-            sizes.of_any(book, sheet, n, 1)
-            sizes.of_any(book, sheet, n, 2, looks.FROM if check.at_least else "")
+            sizes.of_any(n, 1)
+            sizes.of_any(n, 2, looks.FROM if check.at_least else "")
+    sizes.write()
     verdicts(book, sheet, len(listed), 4, 4)
 
 

@@ -5,10 +5,11 @@ from itertools import product
 from typing import NamedTuple
 
 from mechsheet.units import shown
-from mechsheet.workbook import looks, sizes
+from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.content import Content, Live
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.workbook.sizes import Sizes
 
 _ROOM = 13  # characters for which a number's cell has room, in any program's font
 
@@ -53,9 +54,11 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
         listed.append((*line, others, kind, target))
     title = "Found values, the residuals that they leave and the intervals searched"
     sheet = book.listing("Find", title, fields, listed)
+    sizes = Sizes(book, sheet)
     for n, (column, (_, look)) in product(range(2, len(rows) + 2), enumerate(fields)):
         if look is looks.VALUE:
-            sizes.alone(book, sheet, n, column, looks.VALUE_DECIMALS, _ROOM)
+            sizes.alone(n, column, looks.VALUE_DECIMALS, _ROOM)
+    sizes.write()
     for n in (n for n, row in enumerate(rows, 2) if row.kind == "found"):
         rule = {"type": "formula", "format": book.file.add_format(looks.FAIL)}
         within = f"ABS($E${n + 1})<=1E-9*MAX(1,ABS($K${n + 1}))"

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet import units
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, bottom_up
-from mechsheet.workbook import looks, sizes
+from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
 from mechsheet.workbook.chart import Listed
@@ -16,6 +16,7 @@ from mechsheet.workbook.content import quoted as quoted_text
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.workbook.sizes import Sizes
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.table import Column
 
@@ -64,7 +65,7 @@ def write(
     for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
         rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
         sheet.conditional_format(1, 0, 1, 0, rule)
-    row = 3
+    row, sizes = 3, Sizes(book, sheet)
     if results:
         row = _block(book, sheet, row, ("Key results", "Value, least", "greatest", "Unit", "Meaning"))
     for result in results:
@@ -74,10 +75,11 @@ def write(
         for col, (value, look) in enumerate(zip(cells, side, strict=True)):
             put(sheet, row, col, value, book.style(looks.CELL, look))
         if result.column:
-            sizes.follow(book, sheet, (row, 1, row, 2), result.column, _ROOM)
+            sizes.follow((row, 1, row, 2), result.column, _ROOM)
         else:
-            sizes.alone(book, sheet, row, 1, looks.VALUE_DECIMALS, _ROOM)
+            sizes.alone(row, 1, looks.VALUE_DECIMALS, _ROOM)
         row = _text(book, sheet, row, 4, result.meaning)
+    sizes.write()
     row = _block(book, sheet, row + bool(results), ("Contents", "", "", "", ""))
     for name, title in book.contents[1:]:
         sheet.write_url(row, 0, f"internal:{quoted(name)}!A1", book.style(looks.CELL, looks.LINK), name)

@@ -5,11 +5,12 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from mechsheet.units import shown
-from mechsheet.workbook import looks, sizes
+from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book, page_of
 from mechsheet.workbook.content import Content, Live, allowed, computed, put
 from mechsheet.workbook.looks import CHAR, EMPTY, FIRST, GAP, LONG, PAD, ROW
 from mechsheet.workbook.sheet_formulas import SheetFormulas
+from mechsheet.workbook.sizes import Sizes
 from mechsheet.worksheet.table import Column, Table
 
 Contents = Sequence[tuple[Column, Sequence[Content]]]
@@ -59,6 +60,7 @@ def write(
     sheet, spots = (_short if rows <= LONG else _long)(book, name, heading, widths, rows, charts, behind)
     sheet.set_row_pixels(1, ROW if note else ROW // 3)
     put(sheet, 1, 0, note, book.style(looks.NOTE))
+    sizes = Sizes(book, sheet)
     for col, (column, cells) in enumerate(columns):
         side = looks.side(looks.NUMBER if column.unit or numbers else looks.TEXT)
         put(sheet, 2, col, column.symbol, book.style(looks.HEAD, side, looks.TOP))
@@ -72,7 +74,8 @@ def write(
         for row, value in enumerate(cells, FIRST):
             put(sheet, row, col, value, style if row < FIRST + rows - 1 else last)
         if numbers is None and live[col]:
-            sizes.follow(book, sheet, (FIRST, col, FIRST + rows - 1, col), column, rooms[col])
+            sizes.follow((FIRST, col, FIRST + rows - 1, col), column, rooms[col])
+    sizes.write()
     return sheet, spots
 
 
