@@ -107,8 +107,11 @@ def book(worksheet: cells.Worksheet, name: str) -> Callable[..., Book]:
     return made
 
 
-# A rule for numbers of another size than those that the format of a cell is for; where printed pages end.
-_OF_SIZE = re.compile(r"<cfRule[^>]*><formula>(?:IF\()?LEN\(FIXED\([^<]*</formula></cfRule>|<brk [^>]*/>")
+# Rules for numbers of another size than those that the format of a cell is for; where printed pages end.
+_OF_SIZE = re.compile(
+    r"<conditionalFormatting [^>]*>(?:<cfRule[^>]*><formula>(?:IF\()?LEN\(FIXED\([^<]*</formula></cfRule>)+"
+    r"</conditionalFormatting>|<brk [^>]*/>"
+)
 
 
 def columns(book: Book) -> Iterator[tuple[str, str, list[tuple[int, Any]]]]:

@@ -14,6 +14,7 @@ import pytest
 from as_script import as_script
 from conftest import WITHIN
 from openpyxl import load_workbook
+from openpyxl.formula.translate import Translator
 from own_worksheet import written
 from test_recalculation import computed, edit, export
 from test_recorded_worksheet import own
@@ -291,10 +292,16 @@ def test_where_cells_compare_what_they_compute_it_says_how(tmp_path: Path) -> No
 
 
 def forms(sheet: Any, address: str) -> list[tuple[str, str]]:
-    """Conditions and number formats of the first cell of a range, the first that holds prevailing."""
-    every = (rule for cells in sheet.conditional_formatting if address in cells for rule in cells.rules)
-    rules = sorted((rule for rule in every if rule.type == "expression"), key=lambda rule: rule.priority)
-    return [(f"={rule.formula[0]}", rule.dxf.numFmt.formatCode) for rule in rules]
+    """Conditions and number formats of a cell, the first that holds prevailing; written they are those of the first."""
+    every = ((rule, cells) for cells in sheet.conditional_formatting if address in cells for rule in cells.rules)
+    rules = sorted((each for each in every if each[0].type == "expression"), key=lambda each: each[0].priority)
+    return [
+        (
+            Translator(f"={rule.formula[0]}", str(cells.sqref).split(":")[0].split()[0]).translate_formula(address),
+            rule.dxf.numFmt.formatCode,
+        )
+        for rule, cells in rules
+    ]
 
 
 def test_numbers_of_another_size_are_legible(
