@@ -62,6 +62,30 @@ def test_what_numpy_makes_infinite_is_so_among_others_too(tmp_path: Path) -> Non
     assert swept.solved.all() and swept["result"][133] == 0 == evaluate(sheet.path, ["result"], F=4.0)["result"]
 
 
+UNSEEN = {  # that Python has no number for where F = 9, of which only a condition or an unused place takes one
+    "y = g.a if min(z for z in (1.0, 8.0) if z > g.F) > 2 else 3.0": "min() arg is an empty sequence",
+    "y = g.a if next(z for z in (1.0, 8.0) if z > g.F) > 2 else 3.0": NONE,
+    "y = g.a if np.array([1.0, 2.0, 4.0, 8.0])[int(g.F)] > 3 else 3.0": "index 9 is out of bounds",
+    "y = np.array([g.a, 3.0])\ny[y > 5] = min(z for z in (1.0, 8.0) if z > g.F)\ny = y.sum()": "empty sequence",
+    "y = g.a\nfor z in (0.5, 1.0):\n    if z > math.fmod(1.0, g.F - 9.0):\n        y = y + z": "math domain error",
+}
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", UNSEEN)
+def test_what_python_refuses_has_no_number_when_asked_for_again(lines: str, tmp_path: Path) -> None:
+    """By the recording of other inputs, which has none: a comparison with it went a way that Python does not go."""
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
+    for F in (1.0, 1.2, 1.4):
+        evaluate(sheet.path, ["result"], F=F)
+    with pytest.raises((ValueError, LookupError)):
+        evaluate(sheet.path, ["result"], F=9.0)
+    F = np.append(np.linspace(0.5, 3.5, 210), 9.0)
+    swept = sweep(sheet.path, ["result"], {"F": F})
+    assert UNSEEN[lines] in swept.reasons[-1] and np.isnan(swept["result"][-1]) and swept.solved[:-1].all()
+    assert swept["result"][100] == sheet.run(["result"], {"g": sheet.inputs(F=F[100])})["result"]
+
+
 def test_a_mistake_whatever_the_numbers_are_ends_the_sweep(tmp_path: Path) -> None:
     sheet = own(tmp_path, "y = g.F + nothing\nresult = y * 1.0  # [-] line")
     with pytest.raises(NameError, match="nothing"):

@@ -69,20 +69,20 @@ class Graph(Lengths):
     mechanics run themselves, in the steps that keep most digits and with what they refuse, and not in the shorter ones
     of a workbook.
 
-    ``looked`` are guards, what the Python code saw of quantities: where one of them no longer holds, what rests on it
-    is no longer what the worksheet has. ``labels`` are the names of steps inside library functions.
+    ``looked`` are guards, what the Python code saw of quantities: where one no longer holds, what rests on it is no
+    longer what the worksheet has. ``labels`` name steps inside library functions.
     """
 
     def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
         super().__init__()
-        self.thin, self.bodies = thin, bodies
         self.untold: list[str] = []  # why the present statement has numbers of now alone
-        self.draws, self.lists = draws, lists  # drawings are recorded too; lists among the inputs have any length
+        self.thin, self.bodies, self.draws, self.lists = thin, bodies, draws, lists  # lists: inputs of any length
+        self.refuses = draws or bodies  # what Python has an error for is told; cells have errors themselves
         self.listed = frozenset[int]()  # how many rows the tables have that list every so many
         self.positions = 0  # numbers of linspace before any were left out
         self.line = 0  # of the worksheet, which is run
         self.work = 0  # numbers computed since somebody set it to 0
-        self.most = MOST_DRAWN if draws or bodies else MOST  # that these may be
+        self.most = MOST_DRAWN if self.refuses else MOST  # that these may be
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are
         self.refused = dict[Node, Node | None]()  # where Python has no error for one, see `refused`

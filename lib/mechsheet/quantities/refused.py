@@ -65,7 +65,7 @@ class Turn:
 
 def refused(value: Any) -> Any:
     """Numbers for which Python has an error where they are none; of many together nobody knows which it computes."""
-    for each in _drawn(value):
+    for each in _telling(value):
         for part in each.parts if not each.ndim else ():
             _note(each.graph, part, each.graph.fold("finite", part))
     return value
@@ -73,16 +73,16 @@ def refused(value: Any) -> Any:
 
 def pointed(value: Any, container: Any) -> Any:
     """What computed places in a container point at, for which Python has an error where there are none."""
-    own = {part for each in _drawn(container) for part in each.parts}
-    for each in _drawn(value):
+    own = {part for each in _telling(container) for part in each.parts}
+    for each in _telling(value):
         for part in each.parts:
             _note_places(each.graph, part, own)
     return value
 
 
-def _drawn(value: Any) -> Iterator[Quantity]:
-    """Quantities of a recording for pages."""
-    return (each for each in quantities(value) if each.graph.draws)
+def _telling(value: Any) -> Iterator[Quantity]:
+    """Quantities of a recording that tells what Python refuses."""
+    return (each for each in quantities(value) if each.graph.refuses)
 
 
 def _note_places(graph: Graph, node: Node, own: Container[Node]) -> None:
@@ -105,7 +105,7 @@ def _note(graph: Graph, node: Node, exists: Node) -> None:
 def compared(*operands: Quantity) -> None:
     """Note that Python needs what it may have an error for; the cells of a workbook have one themselves."""
     graph = operands[0].graph
-    if not graph.draws:
+    if not graph.refuses:
         return
     exist = [_exists(graph, part) for x in operands for part in x.parts]
     # Of other ways that are supposed nobody knows here when they are gone.
@@ -126,6 +126,11 @@ def note(exists: Quantity) -> None:
 def on_ways(holds: Quantity) -> Any:
     """Whether a condition holds, or the ways that are recorded now are not gone."""
     return reduce(lambda held, way: held | elementwise("not")(way), holds.graph.ways, holds)
+
+
+def existing(value: Any) -> Iterator[Node]:
+    """Conditions under which Python has no error for numbers, where it may have one."""
+    return (holds for each in _telling(value) for part in each.parts if (holds := _exists(each.graph, part)))
 
 
 def _exists(graph: Graph, node: Node) -> Node | None:

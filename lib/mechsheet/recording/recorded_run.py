@@ -240,7 +240,7 @@ class Run(OfPositions):
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         beside |= reached if graph.looked else set()
-        known = {k: guard for k, guard in graph.looked.items() if not guard.lengths and (graph.draws or not guard.why)}
+        known = {k: guard for k, guard in graph.looked.items() if not guard.lengths and (graph.refuses or not guard.why)}
         noted = {} if touched or beside else known
         stage.guards |= noted
         self.recording.guards |= graph.numbered | noted
@@ -412,7 +412,7 @@ class Run(OfPositions):
 
     def note(self, guard: Guard) -> None:
         """Note a guard, at the first line that saw the same."""
-        if guard.why and not self.graph.draws:  # cells of a workbook follow all other inputs
+        if guard.why and not self.graph.refuses:  # cells of a workbook follow all other inputs
             return
         known = self.recording.guards.get(guard.holds, guard)
         same = known.rows or known._replace(line=guard.line) == guard  # a number of rows stays one whatever looks at it
