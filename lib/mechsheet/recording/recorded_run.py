@@ -240,7 +240,7 @@ class Run(OfPositions):
         ways = may_change and bool(graph.looked)  # of which others change more
         beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
         beside |= reached if graph.looked else set()
-        known = {k: guard for k, guard in graph.looked.items() if not guard.lengths and (graph.refuses or not guard.why)}
+        known = {k: seen for k, seen in graph.looked.items() if not seen.lengths and (graph.refuses or not seen.why)}
         noted = {} if touched or beside else known
         stage.guards |= noted
         self.recording.guards |= graph.numbered | noted

@@ -103,14 +103,16 @@ class Job:
             return self.run(columns)
         except _Changed:
             raise
-        except FloatingPointError:
-            if _count(columns) == 1:
+        except OF_NUMBERS as error:
+            if not varied(columns):
+                return Part({}, np.ones(1, dtype=bool), {})
+            if _count(columns) == 1:  # an array of one may have an error of its own
                 return self._tried(next(one_by_one(columns)))
-            if not surely and not self._is_refused(columns):
-                return replace(self, refusing=False)._tried(columns)
-            surely = True
-        except OF_NUMBERS:
-            if _count(columns) == 1 or self._in_common(columns):
+            if isinstance(error, FloatingPointError):
+                if not surely and not self._is_refused(columns):
+                    return replace(self, refusing=False)._tried(columns)
+                surely = True
+            elif self._in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
         return _joined([self._tried(half, surely) for half in _halves(columns)])
 
@@ -198,7 +200,7 @@ class Job:
         except OF_NUMBERS as error:
             if count > 1 and not self._in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
-            if isinstance(error, FloatingPointError):  # of which Python has its own words
+            if varied(columns) and count == 1:  # of which Python has its own words
                 return self._reasons(next(one_by_one(columns)))
             add(mistakes.reason(error, self.path))
         among = count if varied(columns) else None

@@ -22,6 +22,7 @@ from mechsheet.run.progress import on_terminal
 from mechsheet.run.silent import silently
 from mechsheet.studies.chunks import Job, Part, alike, digest, one_by_one, same_shape, varied
 from mechsheet.studies.executed import computed
+from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
@@ -204,7 +205,7 @@ def _swept(
     given = inputs.variants(sheet.inputs, {str(name): values for name, values in variants.items()})
     rows = np.flatnonzero(given.reasons == "")
     job = Job(sheet.path, digest(sheet.path), want, at_once=True)
-    together = _together(job, given, rows)
+    together = _together(sheet, job, given, rows)
     if together is None:
         job = _recorded(replace(job, at_once=False), given, rows)
         chunk = chunk if job.recorded else min(chunk, _ONE_BY_ONE)
@@ -248,7 +249,7 @@ def _swept(
 _taking_arrays: dict[Any, Job] = {}  # by worksheets, results and inputs that were found to take arrays of variants
 
 
-def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job | None:
+def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job | None:
     """The job with all variants at once, where some give the same among each other as alone."""
     names = varied(given.at(rows[:1]))
     key = job, names
@@ -270,6 +271,8 @@ def _together(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job |
     if not ran:
         return job if _is_refused(job, given, refused) else None
     numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
+    if mixes(sheet, job.want, given.at(np.resize([*ran], COUNT))):
+        return None
     all_at_once = replace(job, numbers=frozenset(numbers))
     together = [*ran] if len(ran) > 1 else [*tried]
     all_at_once = replace(all_at_once, refusing=not all_at_once.divides(given.at(np.array([*ran]))))

@@ -1,0 +1,163 @@
+"""Whether lines of a worksheet mix the variants of a sweep, told by arrays that know what they are made of.
+
+That some variants have the same with each other as alone may not be so of others: whether any position of any of them
+is above a limit is true of all where it is true of one. So arrays of many variants are followed by the axis of these:
+what is made of one without it holds for none of them, and neither does what is made of that.
+"""
+
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from mechsheet.worksheet import inputs
+from mechsheet.worksheet.cells import Worksheet, base
+from mechsheet.worksheet.verdict import values_only
+
+COUNT = 43  # variants: hardly a field has as many positions, or a list as many rows
+_PASSED = str(Path(np.__file__).parent), __file__
+_MADE = np.array, np.asarray, np.asanyarray  # which give arrays of no other class
+_PYTHONS = {f.__name__: f for f in (max, min, sum, round, float, int)}  # which look at numbers, and give one
+
+
+class _Looked(BaseException):
+    """Python looks at what is made of all variants at once; no code of a worksheet handles it."""
+
+
+def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> bool:
+    """Whether a wanted result of so many variants is made of all of them at once."""
+    g: Any = inputs.instance(sheet.inputs, {name: _several(x, sheet.path) for name, x in columns.items()})
+    common = {name: _asking(held, sheet.path) for name, held in {**_PYTHONS, **sheet.common}.items()}
+    names = [*map(base, want)]
+    try:
+        with values_only(), np.errstate(all="ignore"):
+            found = replace(sheet, common=common).run(names, {"g": g})
+    except _Looked:
+        return True
+    except Exception:  # others of these arrays have one too, or what is found of them is compared with variants alone
+        return False
+    mixed = any(_is_mixed(found.get(name)) for name in names)
+    found.clear()  # its functions know it, so that its arrays would stay
+    return mixed
+
+
+class Several(np.ndarray):
+    """An array of many variants of the worksheet at ``path``, or a number that is ``mixed`` of all of them."""
+
+    path: str
+    mixed: bool
+
+    def __array_finalize__(self, like: Any) -> None:
+        self.path, self.mixed = getattr(like, "path", ""), getattr(like, "mixed", False)
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *operands: Any, **how: Any) -> Any:
+        made = getattr(ufunc, method)(*_plain(operands), **_plain(how))
+        return self._kept(made, operands, how)
+
+    def __array_function__(self, function: Any, _: Any, operands: Any, how: Any) -> Any:
+        return self._kept(function(*_plain(operands), **_plain(how)), operands, how)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._kept(self.view(np.ndarray)[_plain(key)], key)
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[i] for i in range(self.shape[0]))
+
+    def __bool__(self) -> bool:
+        return bool(self._looked())
+
+    def __float__(self) -> float:
+        return float(self._looked())
+
+    def __int__(self) -> int:
+        return int(self._looked())
+
+    def __index__(self) -> int:
+        return int(self._looked().__index__())
+
+    def __len__(self) -> int:
+        return len(self._looked() if self.shape[:1] == (COUNT,) else self.view(np.ndarray))
+
+    def _looked(self) -> Any:
+        """The numbers, at which a line of the worksheet looks, or a function of the library."""
+        frame: Any = sys._getframe(2)
+        while frame and frame.f_code.co_filename.startswith(_PASSED):
+            frame = frame.f_back
+        if frame and frame.f_code.co_filename == self.path and (self.mixed or self.shape[:1] == (COUNT,)):
+            raise _Looked
+        return self.view(np.ndarray)
+
+    def _kept(self, made: Any, *of: Any) -> Any:
+        """What is made of variants, still theirs or mixed of them."""
+        if type(made) in (tuple, list):
+            return type(made)(self._kept(each, *of) for each in made)
+        if not isinstance(made, np.ndarray | np.generic | bool | float):
+            return made
+        marked: Several = np.asarray(made).view(Several)
+        marked.path, marked.mixed = self.path, COUNT not in marked.shape or _is_mixed([self, *of])
+        return marked
+
+
+def _by_numpy(name: str) -> Any:
+    def method(self: Several, *operands: Any, **how: Any) -> Any:
+        return self._kept(getattr(self.view(np.ndarray), name)(*_plain(operands), **_plain(how)), operands, how)
+
+    return method
+
+
+for _name in ("argmax", "argmin", "cumsum", "cumprod", "dot", "item", "nonzero", "take", "tolist", "trace"):
+    setattr(Several, _name, _by_numpy(_name))
+
+
+class _Numpy(ModuleType):
+    """Numpy, with functions that keep the marks of what they put together."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__("numpy")
+        self._path = path
+
+    def __getattr__(self, name: str) -> Any:
+        return _asking(getattr(np, name), self._path)
+
+
+def _asking(held: Any, path: str) -> Any:
+    """What a worksheet shares, such that it keeps the marks."""
+    if held is np:
+        return _Numpy(path)
+    if any(held is each for each in _MADE):
+        return lambda of, *args, **how: _several(held(_plain(of), *args, **how), path, of)
+    if any(held is each for each in _PYTHONS.values()):
+
+        def of_mixed(*of: Any, **how: Any) -> Any:
+            return _several(np.asarray(held(*_plain(of), **how)), path, of) if _is_mixed(of) else held(*of, **how)
+
+        return of_mixed
+    return held
+
+
+def _several(values: Any, path: str, of: Any = None) -> Any:
+    """Values of many variants marked as such, and those that are ``of`` mixed ones as mixed."""
+    mixed = _is_mixed(of)
+    if not isinstance(values, np.ndarray) or not (mixed or COUNT in values.shape):
+        return values
+    marked = values.view(Several)
+    marked.path, marked.mixed = path, mixed
+    return marked
+
+
+def _plain(x: Any) -> Any:
+    if isinstance(x, Several):
+        return x.view(np.ndarray)
+    if type(x) in (tuple, list):
+        return type(x)(map(_plain, x))
+    return {name: _plain(each) for name, each in x.items()} if type(x) is dict else x
+
+
+def _is_mixed(x: Any) -> bool:
+    if type(x) in (tuple, list, dict):
+        return any(map(_is_mixed, x.values() if type(x) is dict else x))
+    return isinstance(x, Several) and x.mixed

@@ -1,0 +1,49 @@
+"""A line that looks at all variants of a sweep at once has the numbers of each variant alone, whichever there are."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_worksheet import own
+
+from mechsheet import sweep
+
+MIXED = {  # which is the same for each of the first variants, and of few of the others
+    "y = 2.0 if np.any(g.F * np.arange(1.0, 5.0) > 9) else 1.0",
+    "y = 2.0 if (g.F * np.arange(1.0, 5.0)).max() > 9 else 1.0",
+    "y = min(float(np.max(g.F * np.arange(1.0, 5.0))), 9.0) * 1.0",
+    "y = np.minimum(np.array([g.F, 2.0 * g.F, 3.0 * g.F]).max(), 9.0)",
+    "z = max(np.max(g.F * np.arange(4)), 6.0)\ny = g.a * z",
+    "y = 2.0 if sum(v > 9 for v in g.F * np.arange(1.0, 5.0)) else 1.0",
+    "y = 2.0 if np.allclose(np.minimum(g.F * np.arange(1.0, 5.0), 1.0), 1.0) else 1.0",
+    "f = lambda v: 3.0 if (v < 1).all() else 1.0\ny = f(np.maximum(g.F - 2.2, 0.5) * np.arange(1.0, 3.0) / 2.0)",
+}
+
+
+@pytest.mark.parametrize("lines", sorted(MIXED))
+def test_a_variant_has_its_own_number_whatever_others_have(lines: str, tmp_path: Path) -> None:
+    """All had that of the greatest one; and those of another sweep too, once one was found to go at once."""
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
+    for greatest in (1.9, 6.0):
+        F = np.append(np.linspace(1.0, greatest, 60), 1.2)
+        swept = sweep(sheet.path, ["result"], {"F": F})
+        alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F]
+        assert swept["result"] == pytest.approx(alone, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "y = np.max(g.F * np.arange(1.0, 5.0), axis=-1)",
+        "kappa = max(np.max(x), 1.0)\ny = g.F**2",  # of which nothing wanted is made
+        "y = np.array([g.F, g.a * g.F]).max(0)",
+        "y = np.where(x > 1, g.a, x).sum(axis=-1)",
+        "y = find(lambda v: v**2, 0, 5, equals=g.F).value",
+    ],
+)
+def test_what_keeps_variants_apart_goes_at_once(lines: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
+    F = np.linspace(1.0, 3.0, 30)
+    swept = sweep(sheet.path, ["result"], {"F": F})
+    alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F]
+    assert swept.at_once and np.ravel(swept["result"]) == pytest.approx(np.ravel(alone), rel=1e-12)
