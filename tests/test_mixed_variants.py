@@ -14,6 +14,7 @@ MIXED = {  # which is the same for each of the first variants, and of few of the
     "y = min(float(np.max(g.F * np.arange(1.0, 5.0))), 9.0) * 1.0",
     "y = np.minimum(np.array([g.F, 2.0 * g.F, 3.0 * g.F]).max(), 9.0)",
     "z = max(np.max(g.F * np.arange(4)), 6.0)\ny = g.a * z",
+    "A = np.ones(3)\nA[1] = np.count_nonzero(g.F * np.arange(1.0, 5.0) > 9)\ny = g.a * np.minimum(A, 1.0).sum()",
     "y = 2.0 if sum(v > 9 for v in g.F * np.arange(1.0, 5.0)) else 1.0",
     "y = 2.0 if np.allclose(np.minimum(g.F * np.arange(1.0, 5.0), 1.0), 1.0) else 1.0",
     "f = lambda v: 3.0 if (v < 1).all() else 1.0\ny = f(np.maximum(g.F - 2.2, 0.5) * np.arange(1.0, 3.0) / 2.0)",

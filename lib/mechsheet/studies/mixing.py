@@ -6,7 +6,7 @@ what is made of one without it holds for none of them, and neither does what is 
 """
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -20,7 +20,9 @@ from mechsheet.worksheet.verdict import values_only
 
 COUNT = 43  # variants: hardly a field has as many positions, or a list as many rows
 _PASSED = str(Path(np.__file__).parent), __file__
-_MADE = np.array, np.asarray, np.asanyarray  # which give arrays of no other class
+_FILLED = np.zeros, np.ones, np.full, np.empty  # which give arrays into which others are put
+_MADE = np.array, np.asarray, *_FILLED  # which give arrays of no other class
+_OF_SHAPES = np.ndim, np.size, np.shape
 _PYTHONS = {f.__name__: f for f in (max, min, sum, round, float, int)}  # which look at numbers, and give one
 
 
@@ -30,10 +32,11 @@ class _Looked(BaseException):
 
 def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> bool:
     """Whether a wanted result of so many variants is made of all of them at once."""
-    g: Any = inputs.instance(sheet.inputs, {name: _several(x, sheet.path) for name, x in columns.items()})
+    marked = {name: _several(x, sheet.path) for name, x in columns.items()}
     common = {name: _asking(held, sheet.path) for name, held in {**_PYTHONS, **sheet.common}.items()}
     names = [*map(base, want)]
     try:
+        g: Any = inputs.instance(sheet.inputs, marked)
         with values_only(), np.errstate(all="ignore"):
             found = replace(sheet, common=common).run(names, {"g": g})
     except _Looked:
@@ -46,7 +49,7 @@ def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> 
 
 
 class Several(np.ndarray):
-    """An array of many variants of the worksheet at ``path``, or a number that is ``mixed`` of all of them."""
+    """An array of the worksheet at ``path``: of many variants, or of none, or ``mixed`` of all of them."""
 
     path: str
     mixed: bool
@@ -59,7 +62,12 @@ class Several(np.ndarray):
         return self._kept(made, operands, how)
 
     def __array_function__(self, function: Any, _: Any, operands: Any, how: Any) -> Any:
-        return self._kept(function(*_plain(operands), **_plain(how)), operands, how)
+        made = function(*_plain(operands), **_plain(how))
+        return made if function in _OF_SHAPES else self._kept(made, operands, how)
+
+    def __setitem__(self, key: Any, values: Any) -> None:
+        self.view(np.ndarray)[_plain(key)] = _plain(values)
+        self.mixed = self.mixed or _is_mixed([key, values])
 
     def __getitem__(self, key: Any) -> Any:
         return self._kept(self.view(np.ndarray)[_plain(key)], key)
@@ -95,10 +103,11 @@ class Several(np.ndarray):
         """What is made of variants, still theirs or mixed of them."""
         if type(made) in (tuple, list):
             return type(made)(self._kept(each, *of) for each in made)
-        if not isinstance(made, np.ndarray | np.generic | bool | float):
+        if not isinstance(made, np.ndarray | np.generic | int | float):
             return made
         marked: Several = np.asarray(made).view(Several)
-        marked.path, marked.mixed = self.path, COUNT not in marked.shape or _is_mixed([self, *of])
+        lost = COUNT not in marked.shape and _is_any([self, *of], lambda x: COUNT in x.shape)
+        marked.path, marked.mixed = self.path, lost or _is_mixed([self, *of])
         return marked
 
 
@@ -129,7 +138,8 @@ def _asking(held: Any, path: str) -> Any:
     if held is np:
         return _Numpy(path)
     if any(held is each for each in _MADE):
-        return lambda of, *args, **how: _several(held(_plain(of), *args, **how), path, of)
+        filled = any(held is each for each in _FILLED)
+        return lambda *of, **how: _several(held(*_plain(of), **_plain(how)), path, [*of, how], filled)
     if any(held is each for each in _PYTHONS.values()):
 
         def of_mixed(*of: Any, **how: Any) -> Any:
@@ -139,10 +149,10 @@ def _asking(held: Any, path: str) -> Any:
     return held
 
 
-def _several(values: Any, path: str, of: Any = None) -> Any:
-    """Values of many variants marked as such, and those that are ``of`` mixed ones as mixed."""
+def _several(values: Any, path: str, of: Any = None, filled: bool = False) -> Any:
+    """An array that is followed, made ``of`` others; those that keep still are not, as their lines take longer."""
     mixed = _is_mixed(of)
-    if not isinstance(values, np.ndarray) or not (mixed or COUNT in values.shape):
+    if not isinstance(values, np.ndarray) or not (mixed or filled or COUNT in values.shape):
         return values
     marked = values.view(Several)
     marked.path, marked.mixed = path, mixed
@@ -158,6 +168,10 @@ def _plain(x: Any) -> Any:
 
 
 def _is_mixed(x: Any) -> bool:
+    return _is_any(x, lambda several: several.mixed)
+
+
+def _is_any(x: Any, what: Callable[[Several], bool]) -> bool:
     if type(x) in (tuple, list, dict):
-        return any(map(_is_mixed, x.values() if type(x) is dict else x))
-    return isinstance(x, Several) and x.mixed
+        return any(_is_any(each, what) for each in (x.values() if type(x) is dict else x))
+    return isinstance(x, Several) and what(x)
