@@ -67,6 +67,10 @@ UNSEEN = {  # that Python has no number for where F = 9, of which only a conditi
     "y = g.a if next(z for z in (1.0, 8.0) if z > g.F) > 2 else 3.0": NONE,
     "y = g.a if np.array([1.0, 2.0, 4.0, 8.0])[int(g.F)] > 3 else 3.0": "index 9 is out of bounds",
     "y = np.array([g.a, 3.0])\ny[y > 5] = min(z for z in (1.0, 8.0) if z > g.F)\ny = y.sum()": "empty sequence",
+    "y = [g.a, next(z for z in (1.0, 8.0) if z > g.F)][0]": NONE,
+    "y = max((0.5, 2.0), key=lambda q: abs(q - min(z for z in (1.0, 8.0) if z > g.F)))": "empty sequence",
+    "def h(v):\n    w = math.log(9.0 - v)\n    return v\ny = h(g.F)": "math domain error",
+    "k = 1 / (g.F - 9.0)\nk = math.sqrt(g.F)\ny = k": "division by zero",
     "y = g.a\nfor z in (0.5, 1.0):\n    if z > math.fmod(1.0, g.F - 9.0):\n        y = y + z": "math domain error",
 }
 
@@ -78,7 +82,7 @@ def test_what_python_refuses_has_no_number_when_asked_for_again(lines: str, tmp_
     sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
     for F in (1.0, 1.2, 1.4):
         evaluate(sheet.path, ["result"], F=F)
-    with pytest.raises((ValueError, LookupError)):
+    with pytest.raises((ValueError, LookupError, ArithmeticError)):
         evaluate(sheet.path, ["result"], F=9.0)
     F = np.append(np.linspace(0.5, 3.5, 210), 9.0)
     swept = sweep(sheet.path, ["result"], {"F": F})

@@ -1,7 +1,7 @@
 """What Python has an error for, of some inputs: a comparison of it goes neither way there, where one of NaN would."""
 
 import sys
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import reduce
@@ -63,11 +63,14 @@ class Turn:
             _told.reset(token)
 
 
-def refused(value: Any) -> Any:
-    """Numbers for which Python has an error where they are none; of many together nobody knows which it computes."""
+def refused(value: Any, read: bool = True) -> Any:
+    """Numbers for which Python has an error where they are none; of many together nobody knows which it computes.
+
+    It has that at once, whatever is made of them, but for a name that is only bound on other ways and not ``read`` yet.
+    """
     for each in _telling(value):
         for part in each.parts if not each.ndim else ():
-            _note(each.graph, part, each.graph.fold("finite", part))
+            _note(each.graph, part, each.graph.fold("finite", part), read)
     return value
 
 
@@ -96,10 +99,12 @@ def _note_places(graph: Graph, node: Node, own: Container[Node]) -> None:
             _note(graph, node, there.reduced("all").re)
 
 
-def _note(graph: Graph, node: Node, exists: Node) -> None:
+def _note(graph: Graph, node: Node, exists: Node, at_once: bool = True) -> None:
     if node not in graph.always:
         under = [_exists(graph, operand) for operand in node.operands]
         graph.refused[node] = _all(graph, [exists, *under])
+        if graph.bodies and at_once:  # what is made of it is no matter to whom computes others
+            _tell(graph, [graph.refused[node]])
 
 
 def compared(*operands: Quantity) -> None:
@@ -107,7 +112,11 @@ def compared(*operands: Quantity) -> None:
     graph = operands[0].graph
     if not graph.refuses:
         return
-    exist = [_exists(graph, part) for x in operands for part in x.parts]
+    _tell(graph, [_exists(graph, part) for x in operands for part in x.parts])
+
+
+def _tell(graph: Graph, exist: Sequence[Node | None]) -> None:
+    """Note conditions under which Python has no error for what it computes now."""
     # Of other ways that are supposed nobody knows here when they are gone.
     if any(exist) and graph.supposed == _rows.get() + sum(not way.value for way in graph.ways):
         for each in filter(None, exist):
@@ -147,6 +156,12 @@ def _exists(graph: Graph, node: Node) -> Node | None:
         else:
             known[each] = _all(graph, [own, *(known[operand] for operand in each.operands)])
     return known[node]
+
+
+def dividing(graph: Graph) -> list[Node]:
+    """What Python's own arithmetic divides, and has a number of now."""
+    made = [node for node in graph.nodes.values() if node.op in _DIVIDING and not node.shape]
+    return [node for node in made if is_pythons(graph, node) and np.isfinite(node.value)]
 
 
 def of_python(value: Any) -> Any:

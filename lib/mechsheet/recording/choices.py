@@ -107,7 +107,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
     if x is UNBOUND or y is UNBOUND:
-        return refused(merged(condition, _bound(x, y), _bound(y, x)))
+        return refused(merged(condition, _bound(x, y), _bound(y, x)), read=False)
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
