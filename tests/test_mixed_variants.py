@@ -32,6 +32,16 @@ def test_a_variant_has_its_own_number_whatever_others_have(lines: str, tmp_path:
         assert swept["result"] == pytest.approx(alone, rel=1e-12)
 
 
+def test_variants_of_which_none_is_solved_alone_have_no_number_among_others(tmp_path: Path) -> None:
+    """Two of them were a matrix, the product with which a Find had a solution for."""
+    given = "np.array([1.0, 0.5]) @ (np.array([0.5, 2.0]) ** g.F) - 1.0"
+    sheet = own(
+        tmp_path, f"y = find(lambda v: np.sin(v) - ({given}), 0, 6, guess=1.0).value\nresult = y * 1.0  # [-] line"
+    )
+    swept = sweep(sheet.path, ["result"], {"F": np.linspace(2.0, 4.0, 34)})
+    assert np.isnan(swept["result"]).all() and all("is outside" in reason for reason in swept.reasons)
+
+
 @pytest.mark.parametrize(
     "lines",
     [

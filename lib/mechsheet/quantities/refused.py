@@ -137,11 +137,6 @@ def on_ways(holds: Quantity) -> Any:
     return reduce(lambda held, way: held | elementwise("not")(way), holds.graph.ways, holds)
 
 
-def existing(value: Any) -> Iterator[Node]:
-    """Conditions under which Python has no error for numbers, where it may have one."""
-    return (holds for each in _telling(value) for part in each.parts if (holds := _exists(each.graph, part)))
-
-
 def _exists(graph: Graph, node: Node) -> Node | None:
     """The condition under which Python has a number, where it may have an error for it."""
     known = graph.refused

@@ -112,7 +112,7 @@ class Job:
                 if not surely and not self._is_refused(columns):
                     return replace(self, refusing=False)._tried(columns)
                 surely = True
-            elif self._in_common(columns):
+            elif self.in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
         return _joined([self._tried(half, surely) for half in _halves(columns)])
 
@@ -198,7 +198,7 @@ class Job:
                         add(lacking.reason if isinstance(lacking, Verdict) else lacking)
                     told.clear()
         except OF_NUMBERS as error:
-            if count > 1 and not self._in_common(columns):
+            if count > 1 and not self.in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
             if varied(columns) and count == 1:  # of which Python has its own words
                 return self._reasons(next(one_by_one(columns)))
@@ -217,7 +217,7 @@ class Job:
             raise _Changed(f"worksheet {self.path} has changed during the sweep")
         return load(self.path)
 
-    def _in_common(self, columns: Mapping[str, Any]) -> bool:
+    def in_common(self, columns: Mapping[str, Any]) -> bool:
         """Whether the cells fail before they read any input that varies, and so for all variants alike."""
         sheet = self._sheet()
         g = _Read(inputs.instance(sheet.inputs, columns))

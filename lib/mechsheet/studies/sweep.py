@@ -268,8 +268,8 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
             break
     ran = {row: part for row, part in tried.items() if part is not None}
     refused = np.array([row for row, part in tried.items() if part is None], dtype=int)
-    if not ran:
-        return job if _is_refused(job, given, refused) else None
+    if not ran:  # nobody knows a number that is right
+        return job if job.in_common(given.at(refused)) else None
     numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
     if mixes(sheet, job.want, given.at(np.resize([*ran], COUNT))):
         return None
