@@ -15,6 +15,8 @@ MIXED = {  # which is the same for each of the first variants, and of few of the
     "y = np.minimum(np.array([g.F, 2.0 * g.F, 3.0 * g.F]).max(), 9.0)",
     "z = max(np.max(g.F * np.arange(4)), 6.0)\ny = g.a * z",
     "A = np.ones(3)\nA[1] = np.count_nonzero(g.F * np.arange(1.0, 5.0) > 9)\ny = g.a * np.minimum(A, 1.0).sum()",
+    "y = find(lambda v: v**3 + v, 0, 5, equals=np.any(g.F * np.arange(1.0, 5.0) > 9) * 1.0).value",
+    "y = find(lambda v: v**3 + v - np.any(g.F * np.arange(1.0, 5.0) > 9), 0, 5).value",
     "y = 2.0 if sum(v > 9 for v in g.F * np.arange(1.0, 5.0)) else 1.0",
     "y = 2.0 if np.allclose(np.minimum(g.F * np.arange(1.0, 5.0), 1.0), 1.0) else 1.0",
     "f = lambda v: 3.0 if (v < 1).all() else 1.0\ny = f(np.maximum(g.F - 2.2, 0.5) * np.arange(1.0, 3.0) / 2.0)",
@@ -29,7 +31,7 @@ def test_a_variant_has_its_own_number_whatever_others_have(lines: str, tmp_path:
         F = np.append(np.linspace(1.0, greatest, 60), 1.2)
         swept = sweep(sheet.path, ["result"], {"F": F})
         alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F]
-        assert swept["result"] == pytest.approx(alone, rel=1e-12)
+        assert swept["result"] == pytest.approx(alone, rel=1e-12, abs=1e-12)
 
 
 def test_variants_of_which_none_is_solved_alone_have_no_number_among_others(tmp_path: Path) -> None:

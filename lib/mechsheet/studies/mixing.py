@@ -9,13 +9,15 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
 
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, base
+from mechsheet.worksheet.find import find
+from mechsheet.worksheet.system import minerr
 from mechsheet.worksheet.verdict import values_only
 
 COUNT = 43  # variants: hardly a field has as many positions, or a list as many rows
@@ -140,6 +142,8 @@ def _asking(held: Any, path: str) -> Any:
     if any(held is each for each in _MADE):
         filled = any(held is each for each in _FILLED)
         return lambda *of, **how: _several(held(*_plain(of), **_plain(how)), path, [*of, how], filled)
+    if held is find or held is minerr:
+        return lambda *of, **how: held(*map(_unmixed, of), **{name: _unmixed(x) for name, x in how.items()})
     if any(held is each for each in _PYTHONS.values()):
 
         def of_mixed(*of: Any, **how: Any) -> Any:
@@ -147,6 +151,15 @@ def _asking(held: Any, path: str) -> Any:
 
         return of_mixed
     return held
+
+
+def _unmixed(given: Any) -> Any:
+    """What a Find is given, or a function of it gives, which is not mixed."""
+    if isinstance(given, FunctionType):
+        return lambda *of, **how: _unmixed(given(*of, **how))
+    if _is_mixed(given):
+        raise _Looked
+    return given
 
 
 def _several(values: Any, path: str, of: Any = None, filled: bool = False) -> Any:
