@@ -269,7 +269,7 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
     ran = {row: part for row, part in tried.items() if part is not None}
     refused = np.array([row for row, part in tried.items() if part is None], dtype=int)
     if not ran:  # nobody knows a number that is right
-        return job if job.in_common(given.at(refused)) else None
+        return job if _in_common(job, given, refused) else None
     numbers = (name for name in job.want if all(part.values[name].ndim == 1 for part in ran.values()))
     if mixes(sheet, job.want, given.at(np.resize([*ran], COUNT))):
         return None
@@ -290,6 +290,14 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
             return None
     _taking_arrays[key] = all_at_once
     return all_at_once
+
+
+def _in_common(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
+    """Whether all variants are refused before anything is read in which they differ."""
+    try:
+        return job.in_common(given.at(rows))
+    except Exception:  # whatever a line does that cannot take an array
+        return False
 
 
 def _is_refused(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> bool:
