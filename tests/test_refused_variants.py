@@ -52,6 +52,14 @@ def test_what_python_refuses_of_a_number_alone_is_not_infinite_among_others(y: s
         assert "division by zero" in swept.reasons[k]
 
 
+def test_a_field_that_no_variant_has_is_still_one(tmp_path: Path) -> None:
+    """Who takes the least along its positions had one number for all variants."""
+    sheet = own(tmp_path, "q = 1 / (0 * g.F)\nfield = x * q  # [-] field\nresult = q * 1  # [-] number")
+    swept = sweep(sheet.path, ["field", "result"], {"F": [1.0, 2.0, 4.0]})
+    assert not swept.solved.any() and all("division by zero" in reason for reason in swept.reasons)
+    assert swept["field"].shape == (3, 5) and swept["result"].shape == (3,)
+
+
 @pytest.mark.filterwarnings("ignore")
 def test_what_numpy_makes_infinite_is_so_among_others_too(tmp_path: Path) -> None:
     """In elements of arrays, which Python does not refuse."""

@@ -233,8 +233,8 @@ def _swept(
     for i, texts in computed(job.reasons, given.at, chunks, executor):
         reasons[chunks[i]] = texts
 
-    for name in want:  # no variant at all could be computed
-        values.setdefault(name, np.full(size, np.nan))
+    if not values:
+        values = {name: np.full((size, *shape), np.nan) for name, shape in _shapes(job, given, rows).items()}
     return Sweep(
         shape=given.shape,
         names=want,
@@ -244,6 +244,16 @@ def _swept(
         at_once=job.at_once or bool(job.recorded),
         _values={name: v.reshape((*given.shape, *v.shape[1:])) for name, v in values.items()},
     )
+
+
+def _shapes(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> dict[str, tuple[int, ...]]:
+    """Shapes of results that no variant has, as far as they are told by the first one among others of its kind."""
+    none = dict.fromkeys(job.want, tuple[int, ...]())
+    try:
+        found = replace(job, at_once=True, recorded=(), refusing=False).run(given.at(np.resize(rows[:1], COUNT)))
+    except Exception:  # whatever a line does that cannot take an array
+        return none
+    return none | {name: value.shape[1:] for name, value in found.values.items()}
 
 
 _taking_arrays: dict[Any, Job] = {}  # by worksheets, results and inputs that were found to take arrays of variants
