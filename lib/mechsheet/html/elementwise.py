@@ -35,21 +35,21 @@ ELEMENTWISE: dict[str, tuple[str, int, tuple[int, ...]]] = {
     **{op: (f"{op}({{}},{{}})", 10, (1, 1)) for op in ("atan2", "mod", "min", "max")},
 }  # fmt: skip
 _SQUARE, _POWER = ("square({})", 10, (1,)), ("{}**{}", 9, (10, 9))
-_REFUSING = {"div": ("per({},{})", 10, (1, 1)), "pow": ("refusing(pow({},{}))", 10, (1, 1))}
+REFUSING = {"div": ("per({},{})", 10, (1, 1)), "pow": ("refusing(pow({},{}))", 10, (1, 1))}
 _OF_TRUTH = {"where": 1, "and": 2, "or": 2, "not": 1, "sized": 0}  # so many operands are conditions
 
 
 def operation(op: str, operands: list[Text], conditions: list[bool], refuses: bool = False) -> Text:
     """An operation on operands, which are told to be conditions or numbers; as a condition every number but 0 holds.
 
-    Python's own ``refuses`` what would be infinite.
+    One of Python's own that is among the `REFUSING` ones ``refuses`` what would be infinite.
     """
     for k in range(_OF_TRUTH.get(op, 0)):
         if not conditions[k]:
             operands[k] = Text(f"{operands[k].within(5)}!=0", 4)
     form, binding, needs = ELEMENTWISE[op]
-    if refuses and op in _REFUSING and not (_is_number(operands[1].text) and float(operands[1].text) > 0):
-        form, binding, needs = _REFUSING[op]
+    if refuses and not (_is_number(operands[1].text) and float(operands[1].text) > 0):
+        form, binding, needs = REFUSING[op]
     elif op == "pow" and _is_number(operands[1].text):
         operands, (form, binding, needs) = (
             (operands[:1], _SQUARE) if operands[1].text == "2" else (operands, _POWER)

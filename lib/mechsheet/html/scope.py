@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from heapq import heapify, heappop, heappush
 from operator import itemgetter
 
-from mechsheet.html.elementwise import ELEMENTWISE, Text, array, literal, names, operation
+from mechsheet.html.elementwise import ELEMENTWISE, REFUSING, Text, array, literal, names, operation
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.quantities.refused import is_pythons
@@ -274,7 +274,8 @@ class Scope:
         if node.op == "at":
             return Text(f"pick({self.text(node.args[0])},{operands[0].text})")
         conditions = [operand.value.dtype == bool for operand in _along(node)]
-        return operation(node.op, operands, conditions, is_pythons(self.program.graph, node))
+        refuses = node.op in REFUSING and is_pythons(self.program.graph, node)
+        return operation(node.op, operands, conditions, refuses)
 
     def _operand(self, node: Node, key: "Size | Node", shape: str, places: Mapping[Node, str]) -> Text:
         if node in places:

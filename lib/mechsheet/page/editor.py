@@ -85,7 +85,7 @@ def unknown(
     cells, waiting = list(cells), dict[str, list[tuple[str, str, str]]]()
     defined = {name for cell in cells for name in cell.defs} | set(names)
     twice = [name for name, count in Counter(name for cell in cells for name in cell.defs).items() if count > 1]
-    fields = mistakes.inputs_of(names)
+    fields = mistakes.input_names(names)
     for cell in cells:
         if names_twice := sorted(cell.defs.intersection(twice)):
             yield Note(cell.cell_id, mistakes.twice(*names_twice))

@@ -173,7 +173,7 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
             told += filter(None, (no_number(row, names[row.name]) for row in rows if isinstance(row, Formula)))
         except Exception as error:
             lacks = str(error.name) if isinstance(error, NameError) else ""
-            why = mistakes.why(error, known, new, mistakes.inputs_of(names))
+            why = mistakes.why(error, known, new, mistakes.input_names(names))
             told.append(mistakes.late(lacks, lacks in bound) if lacks in late else why)
     there = tuple(row for row in rows if not told or not isinstance(row, Formula))
     numbers = tuple(names[row.name] if isinstance(row, Formula) else None for row in there)

@@ -4,10 +4,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Generator, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Any, TypeVar
 
-from mechsheet.quantities.node import Node
+from mechsheet.quantities.node import Node, steps_of
 from mechsheet.quantities.operations import ELEMENTWISE
 
 _T = TypeVar("_T")
@@ -18,7 +18,7 @@ _UNLIKE = "what goes together here is not as long as each other for these inputs
 
 @contextmanager
 def turning() -> Iterator[None]:
-    """A loop takes other turns for other inputs: nothing is noted of what one of them compares now."""
+    """A loop takes other turns for other inputs: nothing is noted of the lengths that go together in one of them."""
     token = unnoted.set(True)
     try:
         yield
@@ -28,15 +28,8 @@ def turning() -> Iterator[None]:
 
 def _by_condition(length: Node) -> bool:
     """Whether a length is that of the elements for which a condition holds."""
-    waiting, seen = [length], set[Node]()
-    while waiting:
-        part = waiting.pop()
-        if part.op == "reduce":
-            return True
-        if part not in seen and part.op in ELEMENTWISE:
-            seen.add(part)
-            waiting += part.args
-    return False
+    under = steps_of(length, lambda part: part.operands if part.op in ELEMENTWISE else (), ())
+    return any(part.op == "reduce" for part in chain([length], under))
 
 
 class Lengths(ABC):

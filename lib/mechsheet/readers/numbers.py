@@ -1,11 +1,12 @@
 """Numbers of a recording for other inputs: numpy as one reader, and the reference for the others."""
 
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.node import Block, Loop, Node, bottom_up, passes_over
+from mechsheet.quantities.node import Block, Loop, Node, bottom_up, passes_over, steps_of
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
 from mechsheet.readers import between
 from mechsheet.worksheet.find import find
@@ -137,15 +138,12 @@ _REFUSED = ("div", "pow", "log", "exp")  # by Python, where one number of single
 
 def _of_arrays(node: Node) -> bool:
     """Whether a number is computed from elements of arrays, by numpy, which refuses nothing."""
-    waiting, seen = [node], set[Node]()
-    while waiting:
-        part = waiting.pop()
-        if part.shape:
-            return True
-        if part not in seen and (part.op in ELEMENTWISE or part.op in _ELEMENTS):
-            seen.add(part)
-            waiting += part.operands
-    return False
+    return any(part.shape for part in chain([node], steps_of(node, _single, ())))
+
+
+def _single(node: Node) -> tuple[Node, ...]:
+    """What a single number is made of."""
+    return node.operands if not node.shape and (node.op in ELEMENTWISE or node.op in _ELEMENTS) else ()
 
 
 _ELEMENTS = ("take", "at", "reduce")

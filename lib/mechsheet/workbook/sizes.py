@@ -53,11 +53,12 @@ class Sizes:
         """Write the rules, of which the first cells stand above and left of all that have them in common."""
         for (holds, form), every in self._rules.items():
             top, left, *_ = every[0]
-            asked = holds.format(at=f"{letters(left)}{top + 1}", column=letters(left), row=top + 1)
-            rule = {"type": "formula", "criteria": f"={asked}", "stop_if_true": True}
-            rule |= {
+            rule = {
+                "type": "formula",
+                "criteria": "=" + holds.format(at=f"{letters(left)}{top + 1}", column=letters(left), row=top + 1),
                 "format": self._book.file.add_format({"num_format": form}),
                 "multi_range": " ".join(map(_at, every)),
+                "stop_if_true": True,
             }
             self._sheet.conditional_format(*every[0], rule)
 

@@ -77,7 +77,7 @@ def late(name: str, itself: bool) -> str:
     return f"{name} is computed from itself" if itself else f"{name} is defined below its use: move its line up"
 
 
-def inputs_of(names: Mapping[str, object]) -> list[str]:
+def input_names(names: Mapping[str, object]) -> list[str]:
     """Names of the inputs in a namespace."""
     return [field.name for field in getattr(type(names.get("g")), "__inputs__", ())]
 
@@ -132,7 +132,7 @@ def told(error: BaseException, path: str) -> str:
     if not places:
         return why(error, known)
     line, text = places[-1][1], file.read_text(encoding="utf-8")
-    given = inputs_of(places[-1][0].f_globals)
+    given = input_names(places[-1][0].f_globals)
     return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
