@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
 from as_script import as_script
 from openpyxl import load_workbook
@@ -45,6 +46,14 @@ PLACES = [
     "y_0 = np.argsort(np.where(g.F > 0.1 * g.u, g.F, np.inf), kind='stable')[0] * 1.0",
     "m = np.stack([g.F, np.where(g.F > g.u, g.F * g.x, np.inf)])\ny_0 = np.argmin(m, axis=1).sum() * 1.0",
 ]
+# Of great numbers: Python's own functions have an error, numpy's are infinite, and what is bounded stays so.
+GREAT = [
+    "y_0 = min(5.0, math.exp(300 * (g.x + g.u)))", "y_0 = 3 + 1 / math.exp(900 * abs(g.x))",
+    "y_0 = max(1.0, -math.expm1(500 * g.x))", "y_0 = 1 / math.cosh(500 * g.x)", "y_0 = math.atan(math.sinh(400 * g.x))",
+    "y_0 = 1 / (1 + g.u ** (700.0 * g.x))", "y_0 = 1 / (1 + np.exp(300 * g.u))", "y_0 = np.tanh(400.0 * g.x)",
+    "y_0 = math.tanh(1e300 * g.x)", "y_0 = np.expm1(-1500 * g.x)", "y_0 = math.exp(-2000 * abs(g.x))",
+    "y_0 = np.tanh(g.F * 1e4 * g.x).sum()",
+]  # fmt: skip
 LOST = {"a", "b", "c", "d", "p", "least"}
 
 
@@ -96,3 +105,16 @@ def test_a_page_has_the_place_of_a_number_among_infinite_ones(lines: str, blank:
     readers = by_reader(recording, nodes, looked, lists=True), by_page(blank, sheet, recording, nodes, looked)
     for found in readers:
         assert [shown.get(0) for shown in found] == pytest.approx(told), OTHER
+
+
+@pytest.mark.filterwarnings("ignore:overflow")  # as the worksheets do
+@pytest.mark.parametrize("line", GREAT)
+def test_a_page_has_a_number_of_great_ones_where_python_has_one(line: str, blank: Page, tmp_path: Path) -> None:
+    """It made something of infinity where Python has an error, and had none of tanh beyond 355."""
+    sheet = sheet_of(tmp_path, [line])
+    told = [own for (own,) in plain(sheet, ["y_0"])]
+    recording = recorded(sheet, every=1, draws=True, lists=True)
+    nodes = {0: recording.tables["y_0"][0].re}
+    looked = {0: [guard.holds for guard in recording.looked["zy_0"]]}
+    shown = by_page(blank, sheet, recording, nodes, looked)
+    assert [values.get(0, np.nan) for values in shown] == pytest.approx(told, nan_ok=True), OTHER

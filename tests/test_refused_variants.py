@@ -18,6 +18,7 @@ LINES = {  # that have no number for F = 4
     "y = {1: 2.0, 2: 3.0, 3: 4.0}[int(g.F)]": "KeyError: 4",
     "y = math.pow(g.F - 4.0, -1)": "math domain error",
     "y = math.exp(200 * g.F)": "math range error",
+    "y = min(5.0, math.cosh(200 * g.F))": "math range error",
     "assert g.F < 4\ny = g.F": "AssertionError",
     "from scipy.optimize import newton\ny = newton(lambda v: v**2 + g.F - 3.1, 1.0)": "Failed to converge",
 }
@@ -79,6 +80,7 @@ UNSEEN = {  # that Python has no number for where F = 9, of which only a conditi
     "y = max((0.5, 2.0), key=lambda q: abs(q - min(z for z in (1.0, 8.0) if z > g.F)))": "empty sequence",
     "def h(v):\n    w = math.log(9.0 - v)\n    return v\ny = h(g.F)": "math domain error",
     "k = 1 / (g.F - 9.0)\nk = math.sqrt(g.F)\ny = k": "division by zero",
+    "y = g.a if math.exp(80 * g.F) > 3.0 else 2.0": "math range error",
     "y = g.a\nfor z in (0.5, 1.0):\n    if z > math.fmod(1.0, g.F - 9.0):\n        y = y + z": "math domain error",
 }
 

@@ -35,7 +35,10 @@ ELEMENTWISE: dict[str, tuple[str, int, tuple[int, ...]]] = {
     **{op: (f"{op}({{}},{{}})", 10, (1, 1)) for op in ("atan2", "mod", "min", "max")},
 }  # fmt: skip
 _SQUARE, _POWER = ("square({})", 10, (1,)), ("{}**{}", 9, (10, 9))
-REFUSING = {"div": ("per({},{})", 10, (1, 1)), "pow": ("refusing(pow({},{}))", 10, (1, 1))}
+REFUSING: dict[str, tuple[str, int, tuple[int, ...]]] = {
+    "div": ("per({},{})", 10, (1, 1)), "pow": ("refusing(pow({},{}))", 10, (1, 1)),
+    "exp": ("refusing(exp({}))", 10, (1,)),
+}  # fmt: skip
 _OF_TRUTH = {"where": 1, "and": 2, "or": 2, "not": 1, "sized": 0}  # so many operands are conditions
 
 
@@ -48,7 +51,7 @@ def operation(op: str, operands: list[Text], conditions: list[bool], refuses: bo
         if not conditions[k]:
             operands[k] = Text(f"{operands[k].within(5)}!=0", 4)
     form, binding, needs = ELEMENTWISE[op]
-    if refuses and not (_is_number(operands[1].text) and float(operands[1].text) > 0):
+    if refuses and not (op != "exp" and _is_number(operands[1].text) and float(operands[1].text) > 0):
         form, binding, needs = REFUSING[op]
     elif op == "pow" and _is_number(operands[1].text):
         operands, (form, binding, needs) = (

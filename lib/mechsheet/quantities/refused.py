@@ -20,6 +20,7 @@ from mechsheet.quantities.quantity import NOTED, Quantity, quantities
 
 _LIBRARY, _NUMPY = str(Path(__file__).parents[1]), str(Path(np.__file__).parent)
 _DIVIDING = ("div", "pow", "mod")
+_REFUSING = (*_DIVIDING, "exp")
 _ARITHMETIC = (*_DIVIDING, "add", "sub", "mul", "neg", "abs", "max", "min", "round")
 _WHY = "it needs a number that does not exist for these inputs"
 _rows = ContextVar("_rows", default=0)  # how often ways are supposed for all rows, one in another
@@ -141,7 +142,7 @@ def _exists(graph: Graph, node: Node) -> Node | None:
     """The condition under which Python has a number, where it may have an error for it."""
     known = graph.refused
     for each in bottom_up([node], known):
-        own = graph.fold("finite", each) if each.op in _DIVIDING and is_pythons(graph, each) else None
+        own = graph.fold("finite", each) if each.op in _REFUSING and is_pythons(graph, each) else None
         if each.value.dtype == bool:  # which compares, and was noted
             known[each] = None
         elif each.op == "where" and not each.args[0].shape:
@@ -153,9 +154,9 @@ def _exists(graph: Graph, node: Node) -> Node | None:
     return known[node]
 
 
-def dividing(graph: Graph) -> list[Node]:
-    """What Python's own arithmetic divides, and has a number of now."""
-    made = [node for node in graph.nodes.values() if node.op in _DIVIDING and not node.shape]
+def refusing(graph: Graph) -> list[Node]:
+    """What Python has an error for where it is infinite, and has a number of now."""
+    made = [node for node in graph.nodes.values() if node.op in _REFUSING and not node.shape]
     return [node for node in made if is_pythons(graph, node) and np.isfinite(node.value)]
 
 
@@ -163,6 +164,13 @@ def of_python(value: Any) -> Any:
     """Numbers that a function of Python gives."""
     for graph, part in _single(value):
         graph.pythons[part] = True
+    return value
+
+
+def unbounded(value: Any) -> Any:
+    """Numbers of a function of Python whose exponentials have an error where they are infinite."""
+    for graph, part in _single(value):
+        graph.pythons |= {each: True for each in bottom_up([part], graph.pythons) if each.op == "exp"}
     return value
 
 

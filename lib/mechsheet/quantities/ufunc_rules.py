@@ -51,8 +51,17 @@ def _cosh(x: Quantity) -> Any:
     return (_exp(x) + _exp(-x)) / 2
 
 
+def _tanh(x: Quantity) -> Any:
+    """No exponential of it is infinite: beyond the limits it is 1 to far more digits than there are."""
+    if x.im is None:
+        limit = lift(x.graph, 350.0)
+        x = elementwise("max")(elementwise("min")(x, limit), -limit)
+    return _sinh(x) / _cosh(x)
+
+
 def _expm1(x: Quantity) -> Any:
-    return 2 * _sinh(x / 2) * _exp(x / 2)
+    """With the digits of small arguments."""
+    return choice(x.graph, absolute(x) < 1, 2 * _sinh(x / 2) * _exp(x / 2), _exp(x) - 1)
 
 
 def _log1p(x: Quantity) -> Any:
@@ -131,7 +140,7 @@ _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
     np.exp2: lambda x: 2.0**x, np.expm1: _expm1, np.log1p: _log1p,
     np.log2: lambda x: _log(x) / math.log(2), np.log10: lambda x: _log(x) / math.log(10),
     np.cbrt: lambda x: elementwise("sign")(x) * absolute(x) ** (1 / 3),
-    np.sinh: _sinh, np.cosh: _cosh, np.tanh: lambda x: _sinh(x) / _cosh(x),
+    np.sinh: _sinh, np.cosh: _cosh, np.tanh: _tanh,
     np.arctan: lambda x: elementwise("atan2")(x, lift(x.graph, 1.0)),
     np.arcsinh: lambda x: elementwise("sign")(x) * _log1p(absolute(x) + x * x / (1 + _sqrt(x * x + 1))),
     np.arccosh: lambda x: _log1p(x - 1 + _sqrt((x - 1) * (x + 1))), np.arctanh: lambda x: _log1p(2 * x / (1 - x)) / 2,

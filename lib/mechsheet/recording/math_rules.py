@@ -12,7 +12,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import has_quantity, lift
-from mechsheet.quantities.refused import refused
+from mechsheet.quantities.refused import refused, unbounded
 
 _SAME = (
     "sqrt", "exp", "log", "log10", "log2", "log1p", "expm1", "sin", "cos", "tan", "sinh", "cosh", "tanh", "hypot",
@@ -134,6 +134,11 @@ def _refusing(f: Callable[..., Any]) -> Callable[..., Any]:
     return lambda *x: refused(f(*x)) if has_quantity(x) else f(*x)
 
 
+def _unbounded(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of great arguments, for which the module math has an error."""
+    return lambda x: unbounded(f(x)) if has_quantity(x) else f(x)
+
+
 MATH |= {getattr(math, f.__name__): _whole(f) for f in (np.floor, np.ceil, np.trunc)}
 MATH |= {math.isqrt: _whole(lambda x: np.floor(np.sqrt(x)))}
 MATH |= {math.prod: _product, math.remainder: _remainder, math.factorial: _factorial}
@@ -142,4 +147,5 @@ MATH |= {math.hypot: _hypot, math.dist: _distance, math.log: _logarithm}  # of a
 MATH |= {math.gcd: _divisor, math.lcm: _multiple, cmath.phase: np.angle}
 MATH |= {cmath.rect: lambda r, phi: r * np.exp(1j * phi), cmath.polar: lambda z: (np.abs(z), np.angle(z))}
 MATH |= {f: _refusing(MATH[f]) for f in (getattr(math, name) for name in _REFUSING)}
+MATH |= {f: _unbounded(MATH[f]) for f in (math.exp, math.expm1, math.sinh, math.cosh)}
 MATH |= {getattr(cmath, f.__name__): _complex(f) for f in (np.exp, np.sqrt, np.log, np.sin, np.cos)}

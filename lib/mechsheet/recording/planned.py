@@ -11,7 +11,7 @@ import numpy as np
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, lift
-from mechsheet.quantities.refused import dividing
+from mechsheet.quantities.refused import refusing
 from mechsheet.readers.plan import REFUSED, NotPlanned, plan
 from mechsheet.recording.record import record
 from mechsheet.units import Constant
@@ -73,7 +73,7 @@ def followed(only: Worksheet, want: Sequence[str], g: Any) -> Followed:
     quantities = (q for q in recording.values.values() if isinstance(q, Quantity))
     under = bottom_up([part for quantity in quantities for part in quantity.parts], set())
     exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
-    exist += dividing(recording.graph)  # of which nothing may be made
+    exist += refusing(recording.graph)  # of which nothing may be made
     found = [solved.node for solved in recording.found.values()]
     return Followed(recording, own, [*seen, *recording.guards], exist, found)
 
