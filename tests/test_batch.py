@@ -129,7 +129,9 @@ def test_an_exception_of_one_scene_is_its_one_line(tmp_path, capsys):
     assert batch.run(str(sheet), files) == 1
     printed = capsys.readouterr().out
     assert row(printed, "verdict") == ["error", "pass"] and row(printed, "y [1/m]") == ["2"]
-    assert "a: sheet.py, line 19, y = int(1 // g.x): float floor division by zero" in printed
+    assert re.search(
+        r"a: sheet.py, line 19, y = int\(1 // g.x\): (float floor )?division by zero", printed
+    )  # by the version of Python
 
 
 def test_a_result_that_rests_on_no_solution_says_which_equation_resists(tmp_path, capsys):

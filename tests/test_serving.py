@@ -142,4 +142,4 @@ def test_what_a_caller_has_from_the_future_holds(monkeypatch):
     exec(f"from __future__ import annotations\nexec(compile({body!r}, 'text', 'exec'))", names := {})
     assert names["f"].__annotations__ == {"x": "never"}
     with pytest.raises(NameError):
-        exec(compile(body, "text", "exec"), {})
+        exec(compile(f"{body}f.__annotations__", "text", "exec"), {})

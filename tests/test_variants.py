@@ -1,5 +1,6 @@
 """What the recording of one variant knows of others is what the worksheet gives for each of them alone."""
 
+import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
@@ -163,7 +164,8 @@ if g.F > 3.7 and g.a < 0.4:
     swept = assert_those_of_each_alone(own(tmp_path, lines), ["y", "r"], **given)
     told = "\n".join(swept.reasons)
     assert swept.at_once and 50 < swept.solved.sum() < 150
-    assert "hi = " in told and "is outside" in told and "math domain error" in told and "F is too large" in told
+    assert "hi = " in told and "is outside" in told and "F is too large" in told
+    assert re.search("sqrt.*(math domain error|expected a nonnegative)", told)  # by the version of Python
 
 
 @pytest.mark.parametrize(

@@ -95,7 +95,7 @@ class _Backward:
         for k, (operand, part) in enumerate(zip(*self._parts(node), strict=True)):
             if operand.op != "constant":
                 chosen = node.op in ("max", "min") or (node.op == "where" and k > 0)
-                rests = (part == 0) & (chosen or node.op in _STEPS)  # also where nobody knows what it would move
+                rests = np.equal(part, 0) & (chosen or node.op in _STEPS)  # also where nobody knows what it would move
                 slope = np.where((hangs > 0) & ~rests, part * own, 0.0)
                 on = np.where(rests, 0.0, hangs) if chosen else hangs
                 yield operand, _summed(np.stack(np.broadcast_arrays(slope, on)), operand.shape)

@@ -315,7 +315,7 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     _refuse_unread(tree, path)
-    nodes, scopes = list(functions(tree)), {t.get_lineno(): t for t in symtable(text, str(path), "exec").get_children()}
+    nodes, scopes = list(functions(tree)), {scope.get_lineno(): scope for scope in scopes_of(text, path)}
     gives, section = [defines(node.body) for node in nodes], ""
     shared = {name: node.lineno for node in _shared(tree) for name in bound(node)}
     _refuse_twice(nodes, gives, shared, path)
@@ -381,6 +381,11 @@ def _refuse_twice(
                 twice.setdefault(f"lines {first[name]} and {node.lineno}", []).append(name)
     if twice:
         raise SheetError(f"{path.name}, {'; '.join(f'{at}: {mistakes.twice(*names)}' for at, names in twice.items())}")
+
+
+def scopes_of(text: str, path: Path | str = "") -> list[SymbolTable]:
+    """Those of the functions that stand outermost; from Python 3.14 on annotations have some too."""
+    return [scope for scope in symtable(text, str(path), "exec").get_children() if scope.get_type() == "function"]
 
 
 def read_outside(scope: SymbolTable) -> Iterator[str]:

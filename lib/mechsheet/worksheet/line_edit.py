@@ -12,11 +12,10 @@ import tokenize
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from symtable import symtable
 from typing import NamedTuple, TypeAlias
 
 from mechsheet.worksheet import mistakes
-from mechsheet.worksheet.cells import defines, read_outside
+from mechsheet.worksheet.cells import defines, read_outside, scopes_of
 from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.source import bound, functions, is_app
@@ -298,7 +297,8 @@ def _reads(tree: ast.Module, number: int) -> set[str]:
     node = cells[number]
     bare = ast.FunctionDef("cell", ast.arguments([], [], None, [], [], None, []), node.body, [])
     text = ast.unparse(ast.fix_missing_locations(ast.Module([bare], [])))
-    read = set(read_outside(symtable(text, "", "exec").get_children()[0]))
+    (scope,) = scopes_of(text)
+    read = set(read_outside(scope))
     return read & {name for other in cells if other is not node for name in defines(other.body)}
 
 
