@@ -156,6 +156,7 @@ KINDS: tuple[tuple[str, str, str, Alike], ...] = (
     (r"Table 7\.5", r"results \[", r"", counted),  # but for those at the end of their reach
     (r"Table 7\.([6-9]|10)", r"kept digits \[", r"", nearly_singular),  # the worst of three positions
     (r"5 Find against fields", r"r_\d* \[", r"", cancelled),
+    (r"4\.2 Reactions", r"digits \[-\]", r"", nearly_singular),  # of one position
     (r"", r"(digits|most) \[-\]", r"", digits),
     (r"", r"error \[-?\]", r"", error),
     (r"1\.8 Steps", r".* \[-\]", r"", steps),

@@ -109,7 +109,8 @@ def book(worksheet: cells.Worksheet, name: str) -> Callable[..., Book]:
 
 # Rules for numbers of another size than those that the format of a cell is for; where printed pages end.
 _OF_SIZE = re.compile(
-    r"<conditionalFormatting [^>]*>(?:<cfRule[^>]*><formula>(?:IF\()?LEN\(FIXED\([^<]*</formula></cfRule>)+"
+    r"<conditionalFormatting [^>]*>"
+    r"(?:<cfRule[^>]*><formula>_xlfn\.IFNA\((?:IF\()?LEN\(FIXED\([^<]*</formula></cfRule>)+"
     r"</conditionalFormatting>|<brk [^>]*/>"
 )
 

@@ -554,7 +554,8 @@ def test_cells_of_inputs_refuse_what_the_limits_do_not_allow(made: Callable[[str
     assert all(len(rule.formula1) < 255 and not rule.allow_blank for rule in rules.values())
     low, high = values["S_min"].coordinate, values["S_max"].row
     rule = rules[low]
-    assert rule.formula1 == f"IF(ISTEXT({low}),TRUE,AND(ISNUMBER({low}),{low}>=1E-60,{low}<$I${high}))"
+    limits = f"IF(ISTEXT({low}),TRUE,AND(ISNUMBER({low}),{low}>=1E-60,{low}<$I${high}))"
+    assert rule.formula1 == f"_xlfn.IFNA({limits},FALSE)"
     assert rule.prompt.startswith("least length of the cylinder [m]. Limits: > 0, < S_max.")
     grounds = {symbol: cell.fill.fgColor.rgb for symbol, cell in values.items()}
     assert set(grounds.values()) == {grounds["P6"]}, "of every input something follows"

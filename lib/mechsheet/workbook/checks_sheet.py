@@ -7,7 +7,8 @@ from typing import Any
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import LARGEST, Content, Live, put
+from mechsheet.workbook.content import LARGEST, Content, Live, holding, put
+from mechsheet.workbook.place import letters
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.workbook.sizes import Sizes
 from mechsheet.worksheet.check import Check
@@ -114,5 +115,6 @@ def _reason(check: Check, formulas: SheetFormulas) -> Content:
 def verdicts(book: Book, sheet: Any, rows: int, first: int, last: int) -> None:
     """Colour the verdicts in some columns of a listing."""
     for text, look in (("PASS", looks.PASS), ("FAIL", looks.FAIL), ("not evaluated", looks.OPEN)):
-        rule = {"type": "cell", "criteria": "==", "value": f'"{text}"', "format": book.file.add_format(look)}
-        sheet.conditional_format(2, first, rows + 2, last, rule)
+        holds = holding(f'{letters(first)}3="{text}"')
+        coloured = {"type": "formula", "criteria": holds, "format": book.file.add_format(look)}
+        sheet.conditional_format(2, first, rows + 2, last, coloured)

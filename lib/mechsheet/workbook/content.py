@@ -48,7 +48,15 @@ def put(sheet: Any, row: int, col: int, value: Content, style: Any) -> None:
     else:
         # XlsxWriter has no cell of an error alone; the formula that is this error keeps it as its value.
         error = "#N/A" if math.isnan(value) else "#NUM!"
-        sheet.write_formula(row, col, f"={error}", style, error)
+        sheet.write_live(row, col, error, style, error)
+
+
+def holding(condition: str) -> str:
+    """A condition in a rule of formats or of what is typed, which does not hold where it is an error.
+
+    A formula with a name as files have it XlsxWriter takes as it stands; it looks in any other for 150 functions.
+    """
+    return f"=_xlfn.IFNA({condition},FALSE)"
 
 
 def quoted(text: str) -> str:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from mechsheet.units import shown
 from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live
+from mechsheet.workbook.content import Content, Live, holding
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.workbook.sizes import Sizes
 
@@ -60,9 +60,9 @@ def write(book: Book, rows: Sequence[FoundRow], formulas: SheetFormulas | None) 
             sizes.alone(n, column, looks.VALUE_DECIMALS, _ROOM)
     sizes.write()
     for n in (n for n, row in enumerate(rows, 2) if row.kind == "found"):
-        rule = {"type": "formula", "format": book.file.add_format(looks.FAIL)}
-        within = f"ABS($E${n + 1})<=1E-9*MAX(1,ABS($K${n + 1}))"
-        sheet.conditional_format(n, 4, n, 4, {**rule, "criteria": f"=NOT(IFERROR({within},FALSE))"})
+        off = holding(f"NOT(IFERROR(ABS($E${n + 1})<=1E-9*MAX(1,ABS($K${n + 1})),FALSE))")
+        coloured = {"type": "formula", "criteria": off, "format": book.file.add_format(looks.FAIL)}
+        sheet.conditional_format(n, 4, n, 4, coloured)
 
 
 def _known(formula: str | None, value: float, formulas: SheetFormulas | None) -> Content:

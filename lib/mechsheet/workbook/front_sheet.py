@@ -11,7 +11,7 @@ from mechsheet.workbook import looks
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE
 from mechsheet.workbook.chart import Listed
-from mechsheet.workbook.content import LARGEST, Content, Live, allowed, put
+from mechsheet.workbook.content import LARGEST, Content, Live, allowed, holding, put
 from mechsheet.workbook.content import quoted as quoted_text
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.place import Place, quoted
@@ -62,9 +62,9 @@ def write(
     bold = book.style({"bold": True, "align": "left"})
     sheet.merge_range(1, 0, 1, len(_WIDTHS) - 1, "", bold)  # white on red, it is seen on its own ground alone
     put(sheet, 1, 0, _verdict(checks, found), bold)
-    for criterion, look in (("==", looks.PASS), ("!=", looks.FAIL)):
-        rule = {"type": "cell", "criteria": criterion, "value": f'"{_ALL}"', "format": book.file.add_format(look)}
-        sheet.conditional_format(1, 0, 1, 0, rule)
+    for sign, look in (("=", looks.PASS), ("<>", looks.FAIL)):
+        coloured = {"type": "formula", "criteria": holding(f'A2{sign}"{_ALL}"'), "format": book.file.add_format(look)}
+        sheet.conditional_format(1, 0, 1, 0, coloured)
     row, sizes = 3, Sizes(book, sheet)
     if results:
         row = _block(book, sheet, row, ("Key results", "Value, least", "greatest", "Unit", "Meaning"))

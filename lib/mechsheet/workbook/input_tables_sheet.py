@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet.units import shown, si
 from mechsheet.workbook import input_formulas, looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live, allowed, cut, put
+from mechsheet.workbook.content import Content, Live, allowed, cut, holding, put
 from mechsheet.workbook.place import Place, letters, quoted
 from mechsheet.workbook.sheet_formulas import SheetFormulas
 from mechsheet.worksheet import numbers
@@ -229,7 +229,7 @@ def _validation(spot: _Spot, by_symbol: Mapping[str, _Spot], others: Mapping[str
     limits = f"Limits: {column.allowed}. " if column.allowed else ""
     return {
         "validate": "custom",
-        "value": f"=IF(ISTEXT({cell}),TRUE,AND({','.join(rules)}))",
+        "value": holding(f"IF(ISTEXT({cell}),TRUE,AND({','.join(rules)}))"),
         "ignore_blank": True,  # rows may be taken out
         **_told(column, f"{column.meaning} [{shown(column.unit)}]. {limits}Decimal point, or comma as text."),
         "error_title": "Outside the limits",

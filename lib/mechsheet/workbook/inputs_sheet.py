@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet.units import shown, si
 from mechsheet.workbook import input_formulas, input_tables_sheet, looks
 from mechsheet.workbook.book import Book
-from mechsheet.workbook.content import Content, Live, allowed, cut, put, quoted
+from mechsheet.workbook.content import Content, Live, allowed, cut, holding, put, quoted
 from mechsheet.workbook.input_tables_sheet import Grid, GridColumn
 from mechsheet.workbook.place import Place
 from mechsheet.workbook.place import quoted as quoted_sheet
@@ -214,7 +214,7 @@ def _validation(row: InputRow, cell: str, read: dict[str, str]) -> dict[str, obj
     message = allowed(f"{row.meaning} [{shown(row.unit)}]. {limits}Decimal point, or comma as text.")
     return {
         "validate": "custom",
-        "value": f"=IF(ISTEXT({cell}),TRUE,AND({rules}))",
+        "value": holding(f"IF(ISTEXT({cell}),TRUE,AND({rules}))"),
         "ignore_blank": False,
         "input_title": cut(allowed(row.symbol), 32),
         "input_message": cut(message, 255),

@@ -4,6 +4,7 @@ from typing import Any
 
 from mechsheet.workbook.book import Book
 from mechsheet.workbook.cell_formula import AGGREGATE, written
+from mechsheet.workbook.content import holding
 from mechsheet.workbook.place import letters
 from mechsheet.worksheet.table import Column
 
@@ -53,14 +54,14 @@ class Sizes:
         """Write the rules, of which the first cells stand above and left of all that have them in common."""
         for (holds, form), every in self._rules.items():
             top, left, *_ = every[0]
-            rule = {
+            formed = {
                 "type": "formula",
-                "criteria": "=" + holds.format(at=f"{letters(left)}{top + 1}", column=letters(left), row=top + 1),
+                "criteria": holding(holds.format(at=f"{letters(left)}{top + 1}", column=letters(left), row=top + 1)),
                 "format": self._book.file.add_format({"num_format": form}),
                 "multi_range": " ".join(map(_at, every)),
                 "stop_if_true": True,
             }
-            self._sheet.conditional_format(*every[0], rule)
+            self._sheet.conditional_format(*every[0], formed)
 
     def _legible(self, cells: Cells, decimals: int, room: int, small: str) -> None:
         """What is too long loses its decimals, or is a power of ten, as is what is ``small``."""
