@@ -22,7 +22,8 @@ from urllib.parse import quote
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import settings
+from hypothesis import given, settings
+from hypothesis.strategies import just
 from office import Office
 from openpyxl import load_workbook
 
@@ -71,6 +72,17 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         module = getattr(item, "module", None)
         if module is None or computes(module):  # a doctest has none
             item.add_marker("numeric")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish() -> None:
+    """What is loaded by now stays, and is not looked through for waste with what the tests make.
+
+    Nor by hypothesis, which looks for what refers to its numbers as its first test begins: that is here, where the
+    least is there to look through.
+    """
+    settings(max_examples=1, database=None)(given(just(None))(lambda _: None))()
+    gc.freeze()
 
 
 @pytest.hookimpl(tryfirst=True)
