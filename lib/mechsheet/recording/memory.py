@@ -5,7 +5,7 @@ import gc
 import sys
 import weakref
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache, partial
 from itertools import chain
 from types import (
@@ -53,35 +53,26 @@ class Memory:
         self.functions = list[FunctionType]()  # of the worksheet
         self.arrays = set[int]()  # identities of arrays, of what shows elements of another one that
         self.held: dict[int, tuple[Any, list[Any] | None]] = {}  # what is held, and its parts, by the identity
-        beneath = set[int]()  # identities of what nobody compares: it stands in what only its own code looks into
-        waiting = _to_look_at(values, hidden=False)
-        while waiting:
-            value, hidden = waiting.pop()
-            if isinstance(value, Quantity | np.ndarray):
-                value = owner(value)
+        self._beneath: dict[int, Any] = {}  # what nobody compares: it stands in what only its own code looks into
+        self._own = own
+        self.add(values)
+
+    def add(self, values: Iterable[Any]) -> None:
+        """Look at some values too."""
+        for value, hidden, parts in _reached(values, self._own, self.held, self._beneath, _parts):
             if isinstance(value, Quantity):
                 self.nodes.extend(value.nodes)
                 self.held[id(value)] = (), []  # which nobody holds by this
                 if value.ndim:
                     self.arrays.add(id(value))
                 continue
-            if isinstance(value, _LEAVES) or id(value) in (beneath if hidden else self.held):
-                continue
-            if _foreign(value, own):
-                waiting += _to_look_at(_kept(value, own), hidden=True)
-                continue
-            parts = _parts(value)
             if isinstance(value, np.ndarray):
                 self.arrays.add(id(value))
             if isinstance(value, FunctionType):
                 self.functions.append(value)
-            if hidden:
-                beneath.add(id(value))
-            else:
+            if not hidden:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
-                self.held[id(value)] = (known, parts)
-            waiting += _to_look_at(parts or (), hidden)
-            waiting += _to_look_at(_hidden(value), hidden=True)
+                self.held[id(value)] = known, parts
 
     def mutable(self) -> set[int]:
         """Identities of what can be changed in place."""
@@ -96,10 +87,19 @@ class Memory:
     @staticmethod
     def named(names: Mapping[str, Any], objects: set[int]) -> set[str]:
         """Names of values that reach one of some objects."""
-        if not objects:
-            return set()
-        each = ((name, value) for name, value in names.items() if name != "__builtins__")
-        return {name for name, value in each if _reaches(value, objects, names)}
+        found, held, beneath = set[str](), dict[int, Any](), dict[int, Any]()
+        for name, value in names.items() if objects else ():
+            if name == "__builtins__" or type(value) in _PLAIN:
+                continue
+            known = len(held), len(beneath)
+            for part, hidden, _ in _reached([value], names, held, beneath, _inside):
+                if id(part) in objects and (not hidden or isinstance(part, np.ndarray | Quantity)):
+                    found.add(name)
+                    for seen, count in zip((held, beneath), known, strict=True):  # it reaches one, its parts may too
+                        while len(seen) > count:
+                            seen.popitem()
+                    break
+        return found
 
     @staticmethod
     def sharing(names: Mapping[str, Any], others: Iterable[Any]) -> set[str]:
@@ -107,17 +107,40 @@ class Memory:
         return Memory.named(names, Memory(others, names).arrays)
 
 
+def _reached(
+    values: Iterable[Any],
+    own: Mapping[str, Any],
+    held: dict[int, Any],
+    beneath: dict[int, Any],
+    parts_of: Callable[[Any], list[Any] | None],
+) -> Iterator[tuple[Any, bool, list[Any] | None]]:
+    """What values reach, whether only its own code looks into it, and its parts.
+
+    Not what is ``held`` already or, of what only its own code looks into, ``beneath``; there it is added, by its
+    identity.
+    """
+    waiting = _to_look_at(values, hidden=False)
+    while waiting:
+        value, hidden = waiting.pop()
+        if isinstance(value, Quantity | np.ndarray):
+            value = owner(value)
+        if isinstance(value, Quantity):
+            yield value, hidden, None
+            continue
+        seen = beneath if hidden else held
+        if isinstance(value, _LEAVES) or id(value) in seen:
+            continue
+        if _foreign(value, own):
+            waiting += _to_look_at(_kept(value, own), hidden=True)
+            continue
+        parts, seen[id(value)] = parts_of(value), None
+        yield value, hidden, parts
+        waiting += _to_look_at(parts or (), hidden)
+        waiting += _to_look_at(_hidden(value), hidden=True)
+
+
 def _to_look_at(values: Iterable[Any], hidden: bool) -> list[tuple[Any, bool]]:
     return [(value, hidden) for value in values if type(value) not in _PLAIN]
-
-
-def _reaches(value: Any, objects: set[int], own: Mapping[str, Any]) -> bool:
-    if isinstance(value, Quantity):
-        return id(owner(value)) in objects
-    if isinstance(value, _LEAVES) or (_foreign(value, own) and not _kept(value, own)):
-        return False
-    reached = Memory([value], own)
-    return not (objects.isdisjoint(reached.held) and objects.isdisjoint(reached.arrays))
 
 
 def sets_of_others(codes: Iterable[CodeType]) -> bool:
@@ -193,6 +216,11 @@ def _parts(value: Any) -> list[Any] | None:
         return None
     held = (name for name in slots or () if isinstance(getattr(type(value), name, None), MemberDescriptorType))
     return [*getattr(value, "__dict__", {}).values(), *(getattr(value, name, None) for name in held)]  # not computed
+
+
+def _inside(value: Any) -> list[Any] | None:
+    """What there is to look at in a value: in an array of numbers nothing."""
+    return [] if isinstance(value, np.ndarray) and value.dtype != object else _parts(value)
 
 
 def _content(cell: CellType) -> list[Any]:

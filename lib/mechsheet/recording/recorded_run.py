@@ -2,7 +2,7 @@
 
 import ast
 from collections import ChainMap
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -186,9 +186,9 @@ class Run(OfPositions):
         graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
         del graph.gone[:], graph.chosen[:]
         staged.set(stage.shows)
-        reads = self.read(facts.loaded)
+        reads, before = self.reading(facts.loaded)
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
-        before = self.reached(under)
+        before.add(self.values(facts.former))
         codes = [facts.code, *(f.__code__ for f in before.functions)]
         changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
@@ -420,16 +420,21 @@ class Run(OfPositions):
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""
-        found, waiting = set[str](), {*loaded}
+        return self.reading(loaded)[0]
+
+    def reading(self, loaded: Iterable[str]) -> tuple[frozenset[str], Memory]:
+        """These names, and all that their values reach, but for the inputs."""
+        found, waiting, reached = set[str](), {*loaded}, Memory((), self.names)
         while waiting:
             found |= waiting
-            codes = (f.__code__ for f in self.reached(waiting).functions)
-            waiting = set[str]().union(*map(shared_by, codes)) - found
-        return frozenset(found)
+            known = len(reached.functions)
+            reached.add(self.values(waiting))
+            waiting = set[str]().union(*(shared_by(f.__code__) for f in reached.functions[known:])) - found
+        return frozenset(found), reached
 
-    def reached(self, names: Iterable[str]) -> Memory:
-        """All that the values of some names reach, but for the inputs."""
-        return Memory((self.names.get(name) for name in names if name not in self.asked), self.names)
+    def values(self, names: Iterable[str]) -> Iterator[Any]:
+        """The values of some names, but for the inputs."""
+        return (self.names.get(name) for name in names if name not in self.asked)
 
     def leaves(
         self, facts: statement.Statement, reads: frozenset[str], codes: Iterable[CodeType], before: Memory
