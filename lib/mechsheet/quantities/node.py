@@ -231,6 +231,8 @@ def is_number(node: Node, number: float) -> bool:
 
 def is_whole(node: Node, known: Set[Node]) -> bool:
     """Whether Python has a whole number there, where it has one at all; of some it is known."""
+    if node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any():  # as of most: none looks further
+        return False
     waiting, met = [node], set[Node]()
     while waiting:
         part = waiting.pop()
