@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
@@ -93,6 +94,8 @@ def test_a_ball_holds_the_number_of_every_point(op: str) -> None:
         ("acos", [arb(3, 1)], NONE),
         ("div", [arb(0), arb(0)], NONE),
         ("where", [0.0, arb(1), NONE], NONE),
+        ("max", [NONE, arb(1)], NONE),
+        ("min", [arb(1), NONE], NONE),
     ],
 )
 def test_what_is_decided_and_what_is_not(op: str, balls: list[Any], result: Any) -> None:
@@ -105,7 +108,6 @@ def test_what_is_decided_and_what_is_not(op: str, balls: list[Any], result: Any)
         ("sqrt", [arb(0, 1)]),
         ("div", [arb(1), arb(0, 1)]),
         ("div", [arb(1), arb(0)]),
-        ("max", [NONE, arb(1)]),
         ("where", [UNDECIDED, arb(1), NONE]),
         ("pow", [arb(0, 1), arb(0.5)]),
         ("asin", [arb(1, 0.1)]),
@@ -173,6 +175,29 @@ p, q = s_found.value  # [-] one, [-] other"""
     assert told["s_found.p"].exists and "others are not looked for" in str(told["s_found.q"])
     check = proof.check()
     assert not check.passed and "no root is proved there" in check.reason and "line " in check.reason
+
+
+def test_a_root_that_is_0_is_proved(tmp_path: Path) -> None:
+    """Its box had no width, and the slope of a square beside 0 was nothing: no root was proved there."""
+    lines = """
+t_found = find(lambda t: t**3 + t, -1, 10, equals=g.F)
+t = t_found.value  # [-] root
+xy = find(lambda x, y: (x**2 + y**2 - 4, y - g.F * x), x=(0.1, 3), y=(-1, 1))
+p, q = xy.value  # [-] one, [-] other
+s = t + g.a  # [-] sum"""
+    proof = sheet_of(tmp_path, lines.strip(), F=0.0)
+    assert all(root.exists for root in proof.roots) and len(proof.roots) == 3
+    assert {column.name: column.least for column in proof.columns if column.name in "tpqs"} == dict.fromkeys("tpqs", 16)
+
+
+def test_the_greatest_of_numbers_of_which_one_does_not_exist_is_proved_to_be_none(tmp_path: Path) -> None:
+    lines = """
+m = np.max(np.arccos(x - g.a))  # [-] greatest
+n = np.nanmax(np.arccos(x + g.F))  # [-] of none
+k = np.where(m > 1, 2.0, 3.0) * g.F  # [-] a choice by it"""
+    with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):  # numpy's, of none but NaN
+        told = {column.name: column for column in sheet_of(tmp_path, lines.strip()).columns}
+    assert [told[name].least for name in "mnk"] == [16, 16, 16] and told["m"].none == told["n"].none == 1
 
 
 def test_a_table_without_rows_has_nothing_to_prove(tmp_path: Path) -> None:

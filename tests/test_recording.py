@@ -108,6 +108,14 @@ def test_a_field_kept_for_its_size_is_none_of_a_statement_s_operations(
     assert "2" in recording.tables
 
 
+def test_a_loop_of_too_many_turns_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was said that it hands its numbers to contextlib, through which the turns of a loop are followed."""
+    monkeypatch.setattr(graph, "MOST", 40)
+    lines = "n = 0\nwhile n < 30 * g.F:\n    n += 1\nsteps = n * 1.0  # [-] turns"
+    _, recording = recorded(own(tmp_path, lines))
+    assert {gap.reason for gap in recording.gaps} == {"it takes more than 40 operations on single numbers"}
+
+
 def test_what_guards_many_numbers_is_none_of_a_statement_s_operations(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

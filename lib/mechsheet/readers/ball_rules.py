@@ -76,8 +76,8 @@ def _power(a: Any, b: Any) -> Any:
 
 def _multiplied(a: Any, n: int) -> Any:
     """A power by a whole number, also of a ball about 0."""
-    if not a.contains(0) or n == 1:
-        return a**n
+    if n == 1 or not a.contains(0):
+        return a if n == 1 else a**n  # of a ball whose middle is 0 arb has no power
     size = abs(a).upper() ** n
     return arb(0 if n % 2 == 0 else -size).union(size)
 
@@ -112,14 +112,6 @@ def _rounded(a: Any) -> Any:
 
 def _remainder(a: Any, b: Any) -> Any:
     return NONE if b.is_zero() else a - b * _floor(a / b)
-
-
-def _greater(a: Any, b: Any) -> Any:
-    return _UNKNOWN if a is NONE or b is NONE else a.max(b)
-
-
-def _lesser(a: Any, b: Any) -> Any:
-    return _UNKNOWN if a is NONE or b is NONE else a.min(b)
 
 
 def _chosen(c: Any, a: Any, b: Any) -> Any:
@@ -159,7 +151,8 @@ SINGLE: dict[str, Callable[..., Any]] = {
     "sin": _of_number(arb.sin), "cos": _of_number(arb.cos), "tan": _of_number(arb.tan),
     "asin": _of_number(_arc(arb.asin)), "acos": _of_number(_arc(arb.acos)), "atan2": _of_numbers(arb.atan2),
     "sign": _of_number(lambda a: a.sgn()), "floor": _of_number(_floor), "round": _of_number(_rounded),
-    "mod": _of_numbers(_remainder), "pow": _power, "max": _greater, "min": _lesser, "where": _chosen,
+    "mod": _of_numbers(_remainder), "pow": _power, "where": _chosen,
+    "max": _of_numbers(arb.max), "min": _of_numbers(arb.min),
     "lt": _compared(lambda a, b: a < b, lambda a, b: a >= b, 0.0),
     "le": _compared(lambda a, b: a <= b, lambda a, b: a > b, 0.0),
     "gt": _compared(lambda a, b: a > b, lambda a, b: a <= b, 0.0),
@@ -255,14 +248,14 @@ def _reduced(kind: str, parts: list[Any]) -> Any:
     parts = [counted(x) if isinstance(x, float) else x for x in parts]
     if kind.startswith("nan"):
         kind, parts = kind.removeprefix("nan"), [x for x in parts if x is not NONE]
-    if any(x is NONE for x in parts):
-        return NONE if kind in ("sum", "prod") else _UNKNOWN
+    if any(x is NONE for x in parts) or (kind in ("max", "min") and not parts):
+        return _UNKNOWN if kind in ("argmax", "argmin") else NONE
     if kind in ("argmax", "argmin"):
         sizes = parts if kind == "argmax" else [-x for x in parts]
         best = [n for n, x in enumerate(sizes) if not any(x < y for y in sizes)]
         tied = all(sizes[n] == sizes[best[0]] for n in best)
         return arb(best[0]) if tied else arb(best[0]).union(arb(best[-1]))
-    f = {"sum": SINGLE["add"], "prod": SINGLE["mul"], "max": _greater, "min": _lesser}[kind]
+    f = SINGLE[{"sum": "add", "prod": "mul"}.get(kind, kind)]
     result, *rest = parts or [arb(float(kind == "prod"))]
     for x in rest:
         result = f(result, x)

@@ -123,7 +123,7 @@ def enclosed(block: Block, under: Mapping[Node, Values]) -> list[Values]:
             break
     boxes: list[Any] = [None] * len(at)
     width = [
-        [max(abs(d).upper(), abs(x).upper() * _unit()) * 4 for x, d in zip(*pair, strict=True)]
+        [max(abs(d).upper(), abs(x).upper() * _unit(), _unit() ** 2) * 4 for x, d in zip(*pair, strict=True)]
         for pair in zip(at, step, strict=True)
     ]
     for _ in range(_WIDER):

@@ -358,9 +358,8 @@ _WHY = {
     "exported": "what is not recorded", "iterated": "what a loop ends with",
     "sqrt": "whether the root is of a negative number",
     "div": "whether the divisor is 0", "at": "which element is taken", "where": "a choice",
-    "atan2": "the side of a full turn", "asin": "whether there is such an angle",
-    "acos": "whether there is such an angle", "floor": "a whole number", "round": "a whole number",
-    "mod": "a whole turn",
+    "atan2": "the side of a full turn", "mod": "a whole turn", "floor": "a whole number", "round": "a whole number",
+    "asin": "whether there is such an angle", "acos": "whether there is such an angle",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "which of two numbers is greater"),
 }  # fmt: skip
 
@@ -411,8 +410,10 @@ def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
     if np.isinf(own):
         return _ALL if endless(x) and (x > 0) == (own > 0) else 0.0
     off = abs(x / unit - own).upper()
-    if not off.is_finite() or off.is_zero() or not size:
-        return _ALL if off.is_zero() else 0.0
+    if off.is_zero() or (own == 0 and 2 * off < 5e-324):  # no other float is as near
+        return _ALL
+    if not off.is_finite() or not size:
+        return 0.0
     part = float(off / size)
     return min(max(-log10(part), 0.0), _ALL) if part else _ALL
 

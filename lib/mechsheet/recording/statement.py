@@ -27,6 +27,7 @@ _ARGUMENTS = {
     f.__name__: list(signature(f).parameters) for f in (Check, check, check_slope, find, minerr, table, figure)
 }
 _SCOPES = ast.Lambda, ast.FunctionDef, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
+_OWN = "mechsheet", "numpy", "contextlib", "__main__"  # which hand on what they are given
 _BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
 
@@ -255,7 +256,7 @@ def taker(error: BaseException) -> str:
     """What of another package a statement had handed quantities to when an error was raised; "" for none."""
     for frame, _ in walk_tb(error.__traceback__):
         package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
-        if package in sys.modules and package not in ("mechsheet", "numpy", "__main__"):
+        if package in sys.modules and package not in _OWN:
             of = type(frame.f_locals["self"]).__name__ if "self" in frame.f_locals else frame.f_code.co_name
             return f"{package}'s {of}"
     return ""
