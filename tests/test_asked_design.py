@@ -72,12 +72,40 @@ def test_two_inputs_with_requirements_make_a_scene_that_passes(sheet, tmp_path, 
     asked_design.main()
     out = capsys.readouterr().out
     assert re.search(r"^F = 1.75, within 0..5; number$", out, re.MULTILINE) or "F = 1.749999" in out
-    assert "by slopes: p = 3.8375" in out and "now p = 3" in out
+    assert "p = 3.8375 by" in out and "now p = 3" in out
     scene = tmp_path / "own_designed.toml"
     given = arguments.read([f"--scene={scene}", "--want=p"], declared(sheet.inputs))
     outcome, _ = batch.compute(sheet, "scene", given)
     assert outcome.problems == [] and outcome.g.n == 4 and len(outcome.checks) == 1
     assert [path.name for path in tmp_path.iterdir()] == [scene.name]
+
+
+ALL_OVER = """
+c = g.F * g.a  # [-] best in one of two corners
+v = np.where(g.F < 0.02, 2 - g.F, 1.0)  # [-] level but for a small part
+d = 1 / g.F  # [-] without a number at 0
+l = np.log(g.F)  # [-] steep beside 0
+r = np.sqrt(g.F - 3)  # [-] of which the document has no number"""
+
+
+@pytest.mark.parametrize(
+    ("options", "chosen", "said"),
+    [
+        (["--vary=F=-1.3..1.2", "--vary=a=-1.1..1.3", "--best=max c"], {"F": 1.2, "a": 1.3}, "c = 1.56 by"),
+        (["--vary=F=0.01..5", "--best=max v"], {"F": 0.01}, "v = 1.99 by"),
+        (["--vary=F=0..1", "--best=max F", "--need=d >= 2"], {"F": 0.5}, "d >= 2: it is 2"),
+        (["--vary=F=0..1", "--best=max d"], {}, "not refined by slopes: own.py, line .*: float division by zero"),
+        (["--vary=F=1e-9..1e9", "--best=min l"], {"F": 1e-9}, "optimum hold, .* the lower bound of F: .* no way free"),
+        (["--vary=F=-1.32..0.32", "--best=max F", "--need=c <= 9"], {"F": 0.32}, "F = 0.32 by"),
+        (["--vary=F=0..4", "--best=max r"], {"F": 4.0}, "now: r has no value"),
+    ],
+)
+def test_a_design_is_looked_for_all_over_the_bounds(options, chosen, said, tmp_path):
+    """What random variants alone miss: a corner, a small part of level ground, where a line ends, where it begins."""
+    problem = asked(own(tmp_path, ALL_OVER.strip()), *options)
+    found, told = asked_design.best(problem)
+    assert {x: found[x] for x in chosen} == pytest.approx(chosen, rel=1e-6) and re.search(said, "\n".join(told))
+    assert all(low <= found[x] <= high for x, (low, high) in problem.bounds.items())
 
 
 def test_one_input_gives_a_result_its_value(sheet):

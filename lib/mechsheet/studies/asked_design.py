@@ -31,7 +31,7 @@ from mechsheet.worksheet.scene import Limit, Scene
 Array = NDArray[np.float64]
 
 _GENERATIONS, _MEMBERS, _SEED = 30, 10, 1
-_PLACES = 201  # at which it is looked whether other values would do
+_PLACES = 201  # at which is looked before the search, and whether other values would do
 _DIGITS = 5  # to which the inputs are found, of their ranges
 _NAME = r"(\w+(?:\.real|\.imag)?|abs\(\w+\))"
 _NEED = re.compile(rf"(?:(min|max)\s+)?{_NAME}\s*(>=|<=|=)\s*(.+)")
@@ -148,10 +148,8 @@ class Problem:
         except TypeError as error:  # of what is no number
             raise arguments.UsageError(str(error)) from None
         valued = now
-        if now.reasons[0]:  # a mechanism may be looked for that closes; the document's own tells the units
-            _, there = point(worksheet, {})
-            valued = sweep(worksheet, self.computed, _alone({x: there[x] for x in self.bounds}))
-            solved(valued, 0)
+        if now.reasons[0]:  # a mechanism may be looked for that closes; another one tells the units
+            valued = self._valued()
         self.units = {name: valued.units[base(name)] for name in asked.results}
         for name in asked.results:
             if np.iscomplexobj(self.values(valued, name)):
@@ -160,6 +158,20 @@ class Problem:
             self.limits = {need: self._limit(need) for need in asked.needs}
             self.now = self.judged(now)
         self.several = asked.best is not None and self.values(valued, asked.best[1]).size > 1  # positions of the goal
+
+    def _valued(self) -> Sweep:
+        """The document's own variant, or where that has no value the first one within the bounds that has one.
+
+        Raises SheetError where none of them has.
+        """
+        _, there = point(self.worksheet, {})
+        valued = sweep(self.worksheet, self.computed, _alone({x: there[x] for x in self.bounds}))
+        if valued.reasons[0]:
+            places = self.places()
+            closing = np.flatnonzero(self.swept(places).reasons == "")
+            valued = self.swept({x: values[closing[:1]] for x, values in places.items()}) if closing.size else valued
+        solved(valued, 0)
+        return valued
 
     def _limit(self, need: Need) -> float:
         """The limit of a requirement in SI."""
@@ -202,6 +214,17 @@ class Problem:
     def decimals(self) -> dict[str, int]:
         """To how many decimals each input is found."""
         return {x: int(_DIGITS - np.ceil(np.log10(high - low))) for x, (low, high) in self.bounds.items()}
+
+    def places(self) -> dict[str, Array]:
+        """Variants all over the bounds, with the bounds themselves, and the present one as far as it is within them.
+
+        A grid as fine as a few hundred make it; of eight inputs or more the lower bounds alone.
+        """
+        count = int(_PLACES ** (1 / len(self.bounds)))
+        axes = (np.linspace(low, high, count) for low, high in self.bounds.values())
+        grid = np.stack(np.meshgrid(*axes, indexing="ij")).reshape(len(self.bounds), -1)
+        now = (np.clip(self.at[x], low, high) for x, (low, high) in self.bounds.items())
+        return {x: np.append(values, own) for x, values, own in zip(self.bounds, grid, now, strict=True)}
 
     def goal(self, x: float) -> str:
         """The goal of a variant, in words."""
@@ -247,6 +270,8 @@ def solve(problem: Problem) -> tuple[dict[str, float], list[str]]:
 
 def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[dict[str, float], list[str]]:
     """The inputs that hold all requirements and have the best goal, and how sure that is."""
+    places = problem.places()
+    start = int(np.argmin(design.energies(problem.judge(places))))
     found = design.search(
         problem.judge,
         problem.bounds,
@@ -254,9 +279,11 @@ def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[d
         seed=_SEED,
         generations=_GENERATIONS,
         members=_MEMBERS,
+        start={x: float(values[start]) for x, values in places.items()},
         done=done,
     )
-    told = [f"{problem.goal(found.goal)} by {found.tried} variants"]
+    count = found.tried + len(next(iter(places.values())))
+    told = [f"{problem.goal(found.goal)} by {count} variants"]
     chosen, refinement = _refined(problem, found)
     needs = problem.judge(_alone(chosen)).requirements
     told += [f"{r.name}: it is {numbers.amount(float(r.values[0]), r.unit, 6)}" for r in needs]

@@ -161,6 +161,13 @@ def _steps(
     return float(np.where(there, abs(near.goal - goal), 0.0).reshape(2, -1).max(axis=0).sum())
 
 
+def energies(judged: Judged) -> Array:
+    """The less, the better: minus the goal of variants that hold all requirements, below those of all others."""
+    missed = _missed(judged)
+    value = np.where(missed > 0, _FAR * (1 + missed), -judged.goal)
+    return np.where((judged.reasons != "") | np.isnan(value), _LOST, value)
+
+
 def _missed(judged: Judged) -> Array:
     """By what parts of their limits the requirements are missed, in all."""
     return sum((r.missed for r in judged.requirements), np.zeros(len(judged.goal)))
@@ -212,9 +219,7 @@ def _evolved(
         nonlocal tried
         judged = judge(variants(x))
         tried += len(judged.goal)
-        missed = _missed(judged)
-        value = np.where(missed > 0, _FAR * (1 + missed), -judged.goal)
-        return np.where((judged.reasons != "") | np.isnan(value), _LOST, value)
+        return energies(judged)
 
     def progress(*_: Any) -> None:
         done()
@@ -225,6 +230,7 @@ def _evolved(
         maxiter=generations,
         popsize=members,
         tol=0,
+        atol=-1,  # of equal goals too, as on a plateau, it goes on
         rng=seed,
         callback=progress,
         polish=False,

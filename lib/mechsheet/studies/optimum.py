@@ -16,6 +16,7 @@ from mechsheet.worksheet import numbers
 Array = NDArray[np.float64]
 
 _HOLDS = 1e-6  # of what the goal varies by over the bounds: what may be left of its slope at an optimum, or of a bend
+_ROUNDING = 1e-12  # of the slope of the goal
 _ACTIVE = 1e-6  # of its size: a constraint that has less reserve holds the design
 
 
@@ -50,16 +51,19 @@ def conditions(here: At, part: Array, names: Sequence[str]) -> str:
             if abs(x - end) <= _ACTIVE:
                 rows.append(np.append(way * np.eye(len(part))[i], 0.0))
                 said.append(f"the {word} bound of {names[i]}")
-    target = np.append(np.zeros(len(part)), -1.0)
-    balance = np.array(rows).T
-    factors, _ = nnls(balance, target)
+    size = max(1.0, float(np.abs(here.slopes[here.goals]).max()))  # slopes beside which 1 is lost to rounding
+    sizes = np.array([size if row[-1] else float(np.linalg.norm(row)) or 1.0 for row in rows])
+    balance = np.array([np.append(row[:-1] / own, row[-1]) for row, own in zip(rows, sizes, strict=True)]).T
+    factors, _ = nnls(balance, np.append(np.zeros(len(part)), -1.0))
     *rest, whole = balance @ factors  # of factors of the goal that are one in all there is this part
-    left = float(np.linalg.norm(rest) / -whole)
+    left = max(float(np.linalg.norm(rest) / -whole) - _ROUNDING, 0.0) * size
+    factors *= size / sizes
     held = f", held by {', '.join(said)}" if said else ""
     if left > _HOLDS:
         slope = f"a slope of {numbers.significant(left, 2)} of what the goal varies by within the bounds is left"
         return f"the conditions of an optimum do not hold: {slope}{held}"
-    better, second = _second(here, holding, np.array(rows), factors / -whole, names)
+    beside = np.array(rows) * np.append(np.ones(len(part)), size)  # the goal's variable in numbers of the slopes' size
+    better, second = _second(here, holding, beside, factors / -whole, names)
     if better:
         return f"the conditions of an optimum hold to the first order alone{held}: {second}"
     return f"the conditions of an optimum hold{held}: to the first order none near it is better; {second}"

@@ -20,6 +20,7 @@ from mechsheet.run.banding import part_of
 from mechsheet.run.silent import silently
 from mechsheet.studies.optimum import At, conditions
 from mechsheet.worksheet import inputs as declarations
+from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.cells import base, load
 from mechsheet.worksheet.errors import SheetError
 
@@ -82,8 +83,8 @@ class Slopes:
         return np.asarray(np.clip((own - self._low) / (self._high - self._low), 0.0, 1.0))
 
     def _design(self, parts: Array) -> dict[str, float]:
-        own = (self._low + parts * (self._high - self._low)).tolist()
-        return dict(zip(self._start, own, strict=True))
+        own = self._low + parts * (self._high - self._low)  # by rounding beyond a bound
+        return dict(zip(self._start, np.clip(own, self._low, self._high).tolist(), strict=True))
 
     def _at(self, parts: Array) -> At:
         key = parts.tobytes()
@@ -157,8 +158,11 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
     sheet, asked = load(Path(problem.worksheet)), problem.asked
     g: Any = declarations.build(sheet.inputs, {**asked.scene.inputs, **design})
     only = replace(sheet, cells=tuple(sheet.needed(problem.computed, ["g"])))
-    with silently():
-        recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
+    try:
+        with silently():
+            recording = record(only.run(only.results, {"g": g}), only, whole=True, every=1)
+    except Exception as error:  # of a line, as of a division by an input that is 0 at a bound
+        raise SheetError(mistakes.reason(error, sheet.path)) from None
     nodes = {name: node for name in asked.results if (node := part_of(name, recording.values))}
     nodes |= {name: recording.inputs[name] for name in asked.results if base(name) not in problem.computed}
     if missing := [name for name in asked.results if name not in nodes]:
