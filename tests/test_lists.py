@@ -328,6 +328,8 @@ def typed(exported: Path, to: Path, changes: dict[tuple[str, int], object]) -> P
         ({("stringers.A", 5): 1, ("stringers.y", 5): -2, ("stringers.y_top", 5): 30},
          {"stringers": [(1, 25, 30), (0.5, -25, 30), (1, -2, 30)]}),
         ({("F", -1): "other"}, {}),
+        ({("F", -3): "F", ("F", 1): 12}, {"F": [12, -4, 2.5]}),  # meant as it is called, or as another one is
+        ({("F", -3): "stringers.A", ("stringers.A", -3): "F", ("F", 1): 12}, {"F": [12, -4, 2.5]}),
     ],
 )  # fmt: skip
 def test_rows_and_units_of_input_tables_are_read_as_they_are_typed(

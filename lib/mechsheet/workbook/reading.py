@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -103,8 +103,7 @@ def _listed(
 def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict[str, object]:
     """Lists and tables of the sheet Input tables, the numbers of each column under its name and its unit."""
     known = {column.name: column for field in tables for column in field.columns}
-    top, at = _heads(path, rows, known)
-    _, units = next(rows, (0, ()))
+    top, at, units, rows = _heads(path, rows, known)
     elements: dict[str, list[object]] = {name: [] for name in at}
     for number, row in rows:
         for field in tables:
@@ -127,19 +126,30 @@ def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict
     return found
 
 
-def _heads(path: Path, rows: Iterator[_Row], known: Container[str]) -> tuple[int, dict[str, int]]:
-    """The row that has names of columns, and where each stands."""
-    for number, row in rows:
-        texts = [_text(value) for value in row]
-        at = {text: column for column, text in reversed([*enumerate(texts)]) if text in known}
-        if at:
-            twice = next((column for column, text in enumerate(texts) if text in known and at[text] != column), None)
-            if twice is not None:
-                place = _Cell(path, _TABLES, number, twice)
-                first = _Cell(path, _TABLES, number, at[texts[twice]])
-                raise SheetError(f"{place}: {texts[twice]} stands in {first.coordinate} already")
-            return number, at
-    return 0, {}
+def _heads(
+    path: Path, rows: Iterator[_Row], known: Container[str]
+) -> tuple[int, dict[str, int], tuple[Any, ...], Iterator[_Row]]:
+    """The row that has names of columns, where each stands, the units under them, and the rows behind these."""
+    for row in rows:
+        if not _named(row, known):
+            continue
+        units, below = next(rows, (0, ())), next(rows, (0, ()))
+        if _named(row, known).keys() <= _named(below, known).keys():  # a list was meant as it is called
+            row, units, below = below, next(rows, (0, ())), next(rows, (0, ()))
+        at = _named(row, known)
+        texts = [_text(value) for value in row[1]]
+        twice = next((column for column, text in enumerate(texts) if text in known and at[text] != column), None)
+        if twice is not None:
+            place, first = (_Cell(path, _TABLES, row[0], column) for column in (twice, at[texts[twice]]))
+            raise SheetError(f"{place}: {texts[twice]} stands in {first.coordinate} already")
+        return row[0], at, units[1], chain([below] if below[1] else [], rows)
+    return 0, {}, (), rows
+
+
+def _named(row: _Row, known: Container[str]) -> dict[str, int]:
+    """The first column of each known name in a row."""
+    texts = [_text(value) for value in row[1]]
+    return {text: column for column, text in reversed([*enumerate(texts)]) if text in known}
 
 
 @dataclass(frozen=True)
