@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from own_worksheet import written
+from own_worksheet import own, written
 from test_recalculation import computed, edit
 
 from mechsheet import evaluate, load
@@ -129,3 +129,10 @@ def typed(given: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [row.split("; ") for row in given.get("cases", "").split(" | ")] if "cases" in given else []
     cells = [(f"{k}, row {n}", x) for n, row in enumerate(rows, 1) for k, x in zip(("name", "F"), row, strict=True)]
     return cells + [(k, str(x)) for k, x in given.items() if k != "cases"]
+
+
+@pytest.mark.parametrize("name", ['"line " + str(g.k)', 'f"line {g.k}"', 'f"line " f"{g.k}" + ""'])
+def test_a_check_is_wanted_by_its_name_however_that_is_put_together(name: str, tmp_path: Path) -> None:
+    """Of a sum of texts it was said that no check has it, which the report tells beside its verdict."""
+    sheet = own(tmp_path, f"from mechsheet import check\nstrong = check({name}, g.F, 5.0)")
+    assert evaluate(sheet.path, ["line 3"], k=3)["line 3"].passed

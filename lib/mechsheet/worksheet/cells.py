@@ -435,11 +435,20 @@ def _is_closing(node: ast.FunctionDef) -> bool:
 
 
 def _checks(node: ast.FunctionDef) -> Iterator[str]:
-    """Texts that calls in a cell take first, which is where a check has its name; of an f-string its fixed parts."""
+    """Texts that calls in a cell take first, which is where a check has its name, as patterns."""
     for call in source.nodes(node):
         match call:
-            case ast.Call(args=[ast.Constant(str(text)), *_]):
-                yield re.escape(text)
-            case ast.Call(args=[ast.JoinedStr(parts), *_]) if any(isinstance(p, ast.Constant) for p in parts):
-                texts = (re.escape(str(p.value)) if isinstance(p, ast.Constant) else ".*" for p in parts)
-                yield "".join(texts)
+            case ast.Call(args=[first, *_]) if (name := _name(first)).strip(".*"):
+                yield name
+
+
+def _name(text: ast.expr) -> str:
+    """The pattern of a text, of one that is put together by its fixed parts."""
+    match text:
+        case ast.Constant(str(fixed)):
+            return re.escape(fixed)
+        case ast.JoinedStr(parts):
+            return "".join(map(_name, parts))
+        case ast.BinOp(left, ast.Add(), right):
+            return _name(left) + _name(right)
+    return ".*"
