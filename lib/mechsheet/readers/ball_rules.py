@@ -190,10 +190,20 @@ def constant(x: Any) -> Any:
     p, q = _OF_PI.get(abs(x), (0, 1))
     if p:
         return arb.pi() * (p if x > 0 else -p) / q
-    if not isinstance(x, float) or not np.isfinite(x) or Fraction(text := repr(x)) == Fraction(x):
-        return ball(x)
-    digits = text.partition("e")[0].strip("-0.").replace(".", "")
-    return arb(text) if len(digits) <= _WRITTEN else arb(x, abs(x) * _COMPUTED)
+    if is_computed(x):
+        return arb(x, abs(x) * _COMPUTED)
+    return ball(x) if not isinstance(x, float) or not np.isfinite(x) or _is_binary(x) else arb(repr(x))
+
+
+def _is_binary(x: float) -> bool:
+    return Fraction(repr(x)) == Fraction(x)
+
+
+def is_computed(x: Any) -> bool:
+    """Whether a number is no part of pi and has more digits than somebody writes."""
+    if not isinstance(x, float) or not np.isfinite(x) or abs(x) in _OF_PI or _is_binary(x):
+        return False
+    return len(repr(x).partition("e")[0].strip("-0.").replace(".", "")) > _WRITTEN
 
 
 def counted(condition: float) -> Any:

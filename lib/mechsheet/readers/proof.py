@@ -7,6 +7,7 @@ right.
 
 import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -17,14 +18,16 @@ import numpy as np
 from flint import arb
 
 from mechsheet import units
-from mechsheet.quantities.lines import Recording, Solved
+from mechsheet.quantities.graph import NotRecorded
+from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.readers import lone_root
 from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant, endless, leaves_open
-from mechsheet.readers.balls import Balls, is_least, precision, unfollowed
+from mechsheet.readers.balls import Balls, meant, precision, unfollowed
 from mechsheet.readers.gradients import adjoints
+from mechsheet.readers.proved_root import ProvedRoot, proved_root
+from mechsheet.readers.replaced import replaced
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
@@ -76,31 +79,6 @@ class Proved:
     def __str__(self) -> str:
         digits = [] if np.isnan(self.least) else [f"{_shown(self.least)} digits"]
         return f"{self.title}: " + "; ".join([*digits, *([self.why] if self.why else [])])
-
-
-@dataclass(frozen=True)
-class ProvedRoot:
-    """What is proved of a found value: that there is one, of which kind, and where another is not excluded."""
-
-    name: str
-    exists: bool
-    interval: tuple[float, float] | None
-    others: tuple[lone_root.Part, ...] | None
-    unit: str
-    kind: str = "solution"
-
-    def __str__(self) -> str:
-        if not self.exists:
-            return f"{self.name}: not proved"
-        if self.interval is None or self.others is None:
-            return f"{self.name}: proved, one {self.kind} there; others are not looked for"
-        alone = f"the only root of its equation in {numbers.extent(self.interval, self.unit)}"
-        if not self.others:
-            return f"{self.name}: proved, {alone}"
-        size = sum(part.high - part.low for part in self.others) / (self.interval[1] - self.interval[0])
-        places = ", ".join(numbers.amount(part.low, self.unit, 6) for part in self.others)
-        where = f"but for {numbers.significant(size, 1)} of it beside {places}, which is not excluded"
-        return f"{self.name}: proved, {alone} {where}"
 
 
 @dataclass(frozen=True)
@@ -207,7 +185,7 @@ def prove(
     with precision(_BITS[0]):
         for key, solved in recording.found.items():
             alone = solved.node.op == "found" and solved.node.args[0].single
-            roots.append(_root(digits.first, solved.words.unknown if alone else key, solved))
+            roots.append(proved_root(digits.first, solved.words.unknown if alone else key, solved))
             step()
     return Proof(tuple(columns), tuple(roots))
 
@@ -316,6 +294,8 @@ class _Digits:
         """
         with precision(_BITS[-1]):
             (found,) = self.finest.of([node])
+        with suppress(NotRecorded):  # of what is found by them
+            node = replaced(self.recording.graph, [node], meant.get()).get(node, node)
         largest = int(np.argmax(np.abs(shown.own)))
         moves = {part: np.abs(share * part.value) for part, share in adjoints(node, largest).items()}
         parts = [*moves.values(), *(np.abs(part.value) for part in _addends(node))]  # those that cancel move nothing
@@ -415,26 +395,7 @@ def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
     if not off.is_finite() or not size:
         return 0.0
     part = float(off / size)
-    return min(max(-log10(part), 0.0), _ALL) if part else _ALL
-
-
-def _root(balls: Balls, name: str, solved: Solved) -> ProvedRoot:
-    node, unit = solved.node, solved.words.unknown_unit
-    if node.op != "found":
-        return ProvedRoot(name, False, None, None, unit)
-    block = node.args[0]
-    (found,) = balls.of([node])
-    exists = all(x is not NONE and x.is_finite() for x in found.flat)
-    if block.least:
-        kind = "least sum of squares" if exists and is_least(balls, block) else "level sum of squares"
-        return ProvedRoot(name, exists, None, None, unit, kind)
-    if not (exists and block.single and block.elementwise and not node.shape and solved.interval):
-        return ProvedRoot(name, exists, None, None, unit)
-    low, high = balls.of(solved.interval)
-    under = {n: balls.known[n] for n in block.under}
-    others = lone_root.others(block, under, found[()], low[()], high[()])
-    ends = float(low[()]), float(high[()])
-    return ProvedRoot(name, exists, ends, None if others is None else tuple(others), unit)
+    return min(max(0.0, -log10(part)), _ALL) if part else _ALL
 
 
 def _down(digits: float) -> float:

@@ -30,12 +30,18 @@ def proof_of(
     Also of ``fields``, which are results over several positions. ``done`` is called with how many of how many steps
     are behind; without it a bar on the terminal shows them.
     """
-    from mechsheet.readers.proof import prove  # on use: only a proof needs balls
+    from mechsheet.readers.balls import meant  # on use: only a proof needs balls
+    from mechsheet.readers.proof import prove  # on use: as above
+    from mechsheet.recording.computed import computed  # on use: as above
 
     known = registry(namespace)
     tables = [value for value in parts.values(namespace) if isinstance(value, Table)]
-    with if_long("proof") as shown:
-        return prove(recording, namespace, tables, known, Places(sheet, known).lines, fields, done or shown)
+    before = meant.set(computed(recording.graph, sheet))
+    try:
+        with if_long("proof") as shown:
+            return prove(recording, namespace, tables, known, Places(sheet, known).lines, fields, done or shown)
+    finally:
+        meant.reset(before)
 
 
 def proof_of_wanted(namespace: Mapping[str, Any], sheet: Worksheet, want: Iterable[str]) -> "Proof":
