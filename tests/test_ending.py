@@ -226,7 +226,7 @@ def test_a_class_that_is_not_marked_and_an_argument_twice_are_told_in_words(leve
     done = as_script(lever("@inputs\nclass Given:", "class Given:"))
     assert done.returncode == 1 and "ask takes a class of inputs: write @inputs above Given" in done.stderr
     done = as_script(lever("def M(phi):", "def M(phi, phi):"))
-    assert done.returncode == 1 and "duplicate argument 'phi' in function definition\n" in done.stderr, done.stderr
+    assert done.returncode == 1 and re.search("duplicate .* 'phi' in function definition\n", done.stderr), done.stderr
 
 
 def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None:

@@ -1,5 +1,7 @@
 """What Python code can reach and change in place: lists, arrays, objects, what functions keep."""
 
+import builtins
+import dataclasses
 import dis
 import gc
 import sys
@@ -33,7 +35,7 @@ _SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "c
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
-    MemberDescriptorType, _FIELD, Node,
+    MemberDescriptorType, type(dataclasses.MISSING), _FIELD, Node,
 )  # fmt: skip
 # Leaves by their very type, which one look tells: most of what stands in lists.
 _PLAIN = {int, float, complex, bool, str, bytes, np.float64, np.int64, np.bool_, ModuleType, type(None), Node}
@@ -42,6 +44,7 @@ _UNCHANGED = (  # though what they hold may change
     tuple, frozenset, slice, FunctionType, BuiltinFunctionType, MethodType, partial, property, staticmethod,
     classmethod,
 )  # fmt: skip
+_MAPPINGS = (dict, MappingProxyType, getattr(builtins, "frozendict", dict))  # the last from Python 3.15 on
 
 
 class Memory:
@@ -192,7 +195,7 @@ def _parts(value: Any) -> list[Any] | None:
             return value.held()
         case list() | tuple() | deque() | set() | frozenset():
             return list(value)
-        case dict() | MappingProxyType():
+        case _ if isinstance(value, _MAPPINGS):
             return [*value, *value.values()]
         case np.ndarray():
             return (

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
 from pathlib import Path
-from symtable import SymbolTable, symtable
 from textwrap import dedent
 from types import CodeType
 from typing import Any, NamedTuple
@@ -315,7 +314,7 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     _refuse_unread(tree, path)
-    nodes, scopes = list(functions(tree)), {scope.get_lineno(): scope for scope in scopes_of(text, path)}
+    nodes, scopes = list(functions(tree)), {scope.get_lineno(): scope for scope in source.scopes_of(text, path)}
     gives, section = [defines(node.body) for node in nodes], ""
     shared = {name: node.lineno for node in _shared(tree) for name in bound(node)}
     _refuse_twice(nodes, gives, shared, path)
@@ -326,7 +325,7 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         section = [section, *(found for text in texts(lines) for found in _SECTION.findall(constant(text)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
-        needs = frozenset(a.arg for a in node.args.args) | others.intersection(read_outside(scopes[node.lineno]))
+        needs = frozenset(a.arg for a in node.args.args) | others.intersection(source.read_outside(scopes[node.lineno]))
         branching = any(isinstance(line, _OPEN) for line in lines)
         certain = defines(line for line in lines if not isinstance(line, _OPEN)) if branching else gives[n]
         lines, code = compiled(lines, str(path), f"_cell{n}")
@@ -381,18 +380,6 @@ def _refuse_twice(
                 twice.setdefault(f"lines {first[name]} and {node.lineno}", []).append(name)
     if twice:
         raise SheetError(f"{path.name}, {'; '.join(f'{at}: {mistakes.twice(*names)}' for at, names in twice.items())}")
-
-
-def scopes_of(text: str, path: Path | str = "") -> list[SymbolTable]:
-    """Those of the functions that stand outermost; from Python 3.14 on annotations have some too."""
-    return [scope for scope in symtable(text, str(path), "exec").get_children() if scope.get_type() == "function"]
-
-
-def read_outside(scope: SymbolTable) -> Iterator[str]:
-    """Names that a function, or what is defined in it, has neither as arguments nor of its own."""
-    yield from (symbol.get_name() for symbol in scope.get_symbols() if symbol.is_global())
-    for inner in scope.get_children():
-        yield from read_outside(inner)
 
 
 def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt], CodeType]:

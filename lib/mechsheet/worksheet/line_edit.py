@@ -15,10 +15,10 @@ from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 from mechsheet.worksheet import mistakes
-from mechsheet.worksheet.cells import defines, read_outside, scopes_of
+from mechsheet.worksheet.cells import defines
 from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.source import bound, functions, is_app
+from mechsheet.worksheet.source import bound, functions, is_app, read_outside, scopes_of
 
 _WIDE = 120  # characters of a line of the file
 OF_INPUT = "g."  # before the name of an input, as formulas read it

@@ -213,7 +213,7 @@ def unread(error: SyntaxError) -> str:
             "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
         )
     text = (error.text or "").partition("#")[0]
-    if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate argument")):  # which say enough
+    if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate")):  # which say enough
         return error.msg
     if function := _FUNCTION.match(text):
         return f"a function is written {function[1]} = lambda {function[2]}: .."

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
+from symtable import SymbolTable, symtable
 from types import CodeType, FrameType
 from typing import Any
 
@@ -197,6 +198,18 @@ def _bound(node: ast.AST) -> Iterator[str]:
                 waiting += [each for each in reversed(inner) if isinstance(each, ast.AST)]
             elif isinstance(inner, ast.AST):
                 waiting.append(inner)
+
+
+def scopes_of(text: str, path: Path | str = "") -> list[SymbolTable]:
+    """Those of the functions that stand outermost; from Python 3.14 on annotations have some too."""
+    return [scope for scope in symtable(text, str(path), "exec").get_children() if scope.get_type() == "function"]
+
+
+def read_outside(scope: SymbolTable) -> Iterator[str]:
+    """Names that a function, or what is defined in it, has neither as arguments nor of its own."""
+    yield from (symbol.get_name() for symbol in scope.get_symbols() if symbol.is_global())
+    for inner in scope.get_children():
+        yield from read_outside(inner)
 
 
 def _file(frame: FrameType) -> tuple[ast.Module, dict[int, str]]:
