@@ -423,6 +423,8 @@ ZEROS = {
     "zero by a name": ("g.F * (one - 0.01)", {}, True),
     "less than an input is held to": ("(1 + np.cos(g.F)) - 1", {"F": np.pi / 2}, True),
     "parts that cancel move nothing": ("(lambda u: u + (-u))(g.F / 3)", {}, True),
+    "the size of what cancels": ("abs(np.diff(x)[0] * (g.n - 1) - 1.9 * g.F)", {}, True),
+    "the greatest of what cancels": ("np.max(np.abs(x * g.a / 3 - x / (3 / g.a)))", {}, True),
     "lost": ("(1e17 + g.a) - 1e17", {}, False),
     "lost beside what is left out again": ("(1e17 * g.F + g.a) - 1e17 * g.F", {}, False),
     "small": ("1e-30 * g.F / 7", {}, None),

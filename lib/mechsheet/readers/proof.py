@@ -339,17 +339,20 @@ _WHY = {
     "sqrt": "whether the root is of a negative number",
     "div": "whether the divisor is 0", "at": "which element is taken", "where": "a choice",
     "atan2": "the side of a full turn", "mod": "a whole turn", "floor": "a whole number", "round": "a whole number",
-    "asin": "whether there is such an angle", "acos": "whether there is such an angle",
+    "log": "whether the logarithm is of 0", "pow": "whether the base is 0 or below", "tan": "the side of a pole",
+    **dict.fromkeys(("asin", "acos"), "whether there is such an angle"), "reduce": "which of several it is",
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), "which of two numbers is greater"),
 }  # fmt: skip
+
+_SUMS = frozenset(("add", "sub", "neg", "abs", "max", "min", "take", "join", "reduce", "like"))
 
 # What has a number by rounding alone.
 _EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
 
 
 def _addends(node: Node) -> Iterator[Node]:
-    """What a sum is made of; nothing of a quantity that is none."""
-    return steps_of(node, lambda part: part.operands if part.op in ("add", "sub") else (), ())
+    """What a sum is made of, or the size or one of several; nothing of a quantity that is none."""
+    return steps_of(node, lambda part: part.operands if part.op in _SUMS else (), ())
 
 
 def _is_count(node: Node) -> bool:
