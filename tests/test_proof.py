@@ -426,6 +426,8 @@ ZEROS = {
     "the size of what cancels": ("abs(np.diff(x)[0] * (g.n - 1) - 1.9 * g.F)", {}, True),
     "the greatest of what cancels": ("np.max(np.abs(x * g.a / 3 - x / (3 / g.a)))", {}, True),
     "lost": ("(1e17 + g.a) - 1e17", {}, False),
+    "lost in chaos": ("functools.reduce(lambda v, _: 3.9 * v * (1 - v), range(150), g.a)", {}, False),
+    "lost in many turns": ("sin(1e17 * g.F / 3)", {}, False),
     "lost beside what is left out again": ("(1e17 * g.F + g.a) - 1e17 * g.F", {}, False),
     "small": ("1e-30 * g.F / 7", {}, None),
 }
@@ -434,7 +436,7 @@ ZEROS = {
 @pytest.mark.parametrize("name", ZEROS)
 def test_zero_but_for_rounding_is_an_exception_and_what_lost_all_digits_is_none(name: str, tmp_path: Path) -> None:
     text, given, exception = ZEROS[name]
-    proof = sheet_of(tmp_path, f"one = 1 - 0.99\ny = {text}  # [-] number", **given)
+    proof = sheet_of(tmp_path, f"import functools\none = 1 - 0.99\ny = {text}  # [-] number", **given)
     (column,) = (c for c in proof.columns if c.name == "y")
     if exception is None:
         assert column.least > 14 and not column.exception

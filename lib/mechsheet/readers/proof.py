@@ -23,6 +23,7 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.readers import numbers as elsewhere
 from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant, endless, leaves_open
 from mechsheet.readers.balls import Balls, meant, precision, unfollowed
 from mechsheet.readers.gradients import adjoints
@@ -38,6 +39,8 @@ _ALL = 16.0  # digits of a float, claimed where a number is exact
 _BITS = (128, 256, 512, 1024)
 _SMALL = 2.0**-60  # a ball beside the largest number of its column
 _ZERO = 2.0**-500  # of what a number is made of: all that the highest precision leaves of one that is 0
+_NEAR = 2.0**-20  # of an input: a step within which a number goes on as it is moved
+_NOISE = 2.0**-24  # of what a number is made of: what rounding leaves of a difference by such a step
 _HELD = 2.0**-51  # of an input: by how much it is off that is held as a float, in another unit than it is written
 
 
@@ -297,10 +300,10 @@ class _Digits:
         with suppress(NotRecorded):  # of what is found by them
             node = replaced(self.recording.graph, [node], meant.get()).get(node, node)
         largest = int(np.argmax(np.abs(shown.own)))
-        moves = {part: np.abs(share * part.value) for part, share in adjoints(node, largest).items()}
-        parts = [*moves.values(), *(np.abs(part.value) for part in _addends(node))]  # those that cancel move nothing
+        moves = {part: share * part.value for part, share in adjoints(node, largest).items()}
+        parts = [np.abs(m) for m in (*moves.values(), *(part.value for part in _addends(node)))]  # some move nothing
         made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in parts)
-        held = _HELD * sum(float(np.nansum(m)) for part, m in moves.items() if part.op == "input")
+        held = _HELD * sum(_held(node, largest, part, m, made) for part, m in moves.items() if part.op == "input")
         if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
             return None
         digits = _digits(found, shown.own, shown.factor, made / shown.factor)
@@ -348,6 +351,22 @@ _SUMS = frozenset(("add", "sub", "neg", "abs", "max", "min", "take", "join", "re
 
 # What has a number by rounding alone.
 _EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
+
+
+def _held(node: Node, element: int, part: Node, moves: Values, made: float) -> float:
+    """By how much an input moves a number; 0 of one that is no float, or moves it elsewhere than where it is alone.
+
+    A number that has gone through many turns of chaos is moved beyond all it can be by the last digit of an input.
+    """
+    if part.value.dtype.kind != "f":
+        return 0.0
+    try:
+        there = elsewhere.numbers([node], {part: part.value * (1 + _NEAR)})[node]
+    except Exception:  # of an input that has no other value
+        return float(np.nansum(np.abs(moves)))
+    moved = (there - node.value).reshape(-1)[element] / _NEAR
+    off, most = float(abs(moved - np.nansum(moves))), float(np.nansum(np.abs(moves)))
+    return most if off <= most / 2 + made * _NOISE else 0.0
 
 
 def _addends(node: Node) -> Iterator[Node]:
