@@ -265,16 +265,24 @@ def tangents(balls: Balls, block: Block) -> list[Any]:
 
 def _tangent(balls: Balls, block: Block, moving: dict[Node, Values]) -> list[Values]:
     """How the equations of a block move where some unknowns do."""
-    done = {*moving, *block.nodes, *block.under}
-    for node in bottom_up(block.equations, done):
-        done.add(node)
-        if any(operand in moving for operand in node.operands):
-            moving[node] = _moved(node, balls.known, moving)
+    _move(block.equations, balls.known, moving, {*moving, *block.nodes, *block.under})
     shapes = [balls.known[r].shape for r in block.equations]
     return [
         np.broadcast_to(moving.get(r, _filled((), arb(0))), shape)
         for r, shape in zip(block.equations, shapes, strict=True)
     ]
+
+
+def _move(roots: Iterable[Node], known: Mapping[Node, Values], moving: dict[Node, Values], done: set[Node]) -> None:
+    """Add how all under some quantities moves, as far as it does."""
+    for node in bottom_up(roots, done):
+        done.add(node)
+        if node.op == "iterated":  # by the turns that the worksheet took
+            _move([turns := node.args[2]], known, moving, done)
+            if turns in moving:
+                moving[node] = moving[turns]
+        elif any(operand in moving for operand in node.operands):
+            moving[node] = _moved(node, known, moving)
 
 
 def _moved(node: Node, known: Mapping[Node, Values], moving: Mapping[Node, Values]) -> Values:
