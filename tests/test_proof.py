@@ -204,7 +204,7 @@ t = t_found.value  # [-] root"""
     (root,), (column,) = proof.roots, (column for column in proof.columns if column.name == "t")
     exactly = mp.findroot(lambda t: sum(mp.sin(k * t) / k for k in range(1, 5)) - mpf(0.75), mpf(column.size))
     off = abs(mpf(column.size) - exactly)
-    assert root.exists and 14 < column.least and (not off or column.least <= -mp.log10(off / exactly) + 1e-6)
+    assert root.exists and column.least > 14 and (not off or column.least <= -mp.log10(off / exactly) + 1e-6)
 
 
 def test_the_greatest_of_numbers_of_which_one_does_not_exist_is_proved_to_be_none(tmp_path: Path) -> None:
