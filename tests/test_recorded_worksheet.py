@@ -51,6 +51,7 @@ FOLLOWED = [
     "np.count_nonzero(x > g.F)", "np.any(x > g.F) * 1.0", "np.heaviside(x - g.F, 1)", "np.sign(g.F - x)",
     "np.hypot(x, g.a)", "np.exp(-x) * sin(g.a) + math.atan2(g.F, g.a)", "sqrt(g.F) + hypot(g.F, g.a)",
     "np.sinh(g.a) + np.tanh(g.F) + np.log10(g.F) + np.expm1(g.a) + np.log1p(g.a) + np.cbrt(-g.F)",
+    "np.tanh(1e3 * (x - g.F / 2))", "np.tanh(x - g.F / 2)", "np.tanh(g.F + 1j * g.a)",
     "np.exp(1j * x) * g.F", "np.sqrt(g.F + 1j * x)", "abs(g.F + 1j * x)", "np.angle(g.a + 1j * x)", "(g.F + 1j * x)**3",
     "np.sin(g.F + 1j * g.a)", "np.log(g.F + 1j * x)", "g.a if g.F > 2.6 else 3 * g.a", "(1.0, 2, 4, 8)[g.k] * g.F",
     "[3.0, g.F, g.a, 1.0][g.k]", "{0: 1.0, 2: 5.0, 3: g.F}[g.k]", "np.array([3.0, 4.0, 5.0, 6.0])[g.k] * g.F", "x[g.k]",

@@ -29,6 +29,8 @@ _OPERATIONS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Pow: operator.pow, ast.Mod: operator.mod, ast.FloorDiv: operator.floordiv,
     ast.USub: operator.neg, ast.UAdd: operator.pos,
 }  # fmt: skip
+# What is raised by what is no number, or not made of numbers alone.
+_NO_NUMBER = NotRecorded, TypeError, ValueError, LookupError, AttributeError, ArithmeticError
 _Known = Mapping[float, Quantity]
 
 
@@ -77,7 +79,7 @@ class _Written:
         """Each as numpy has it, and as a quantity of which the operations are kept."""
         for node in chain.from_iterable(map(source.nodes, self.lines)):
             if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call):
-                with suppress(Exception, NotRecorded):  # of what is none of numbers alone
+                with suppress(*_NO_NUMBER):
                     found = np.asarray(self.of(node))
                     if found.dtype.kind == "f":
                         yield found, lift(self.graph, self.of(node, self.kept, instead))
