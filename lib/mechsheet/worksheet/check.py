@@ -309,8 +309,9 @@ def check_slope(
     least = 1e-8 * size
     # Finer differences than the check needs would be rounding, which their own error does not tell.
     enough = least / 10 if least > 0 else 0.0  # a slope may be NaN, a tolerance may not
-    differences, error = derivative(f, x, step, ends, enough)
-    rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(f(x)))) / step
+    here = f(x)  # which differences ask for too
+    differences, error = derivative(lambda at: here if at is x else f(at), x, step, ends, enough)
+    rounding = 100 * float(np.finfo(float).eps * np.max(np.abs(here))) / step
     limit = max(least, 10 * float(np.max(error)), rounding)
     return judged(name, np.asarray(slope) - differences, limit, unit, size, limit <= AGREED * size)
 
