@@ -102,13 +102,9 @@ def _less(found: Any, exact: Real) -> Any:
     return (found - exact.high) - exact.low
 
 
+@lru_cache(maxsize=2)  # a cell runs again where it is recorded
 def random_groups(number: str, count: int) -> tuple[Table, Check]:
     """Quantiles of the errors of so many random geometries of each group, in roundings times their condition number."""
-    return _random_groups(number, count)
-
-
-@lru_cache(maxsize=2)  # a cell runs again where it is recorded, though not by what it has of a cache itself
-def _random_groups(number: str, count: int) -> tuple[Table, Check]:
     rows = list[tuple[str, str, Any]]()
     with progress(len(KINDS), f"{number} Random groups") as done:
         for name, kind in KINDS.items():
