@@ -2,10 +2,9 @@
 
 Run as ``python tests/benchmarks/bench_proof.py``. Times are those of the processor, the least of several rounds in
 turn: of an evaluation by the worksheet's cells, its recording, the proof of all its numbers, the gradient of its last
-number by all inputs, and slopes of all its numbers by all inputs. Fails where a proof takes half a second.
+number by all inputs, and slopes of all its numbers by all inputs.
 """
 
-import sys
 import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -20,7 +19,6 @@ from mechsheet.worksheet.cells import load
 WORKSHEETS = Path(__file__).resolve().parents[2] / "worksheets"
 DOCUMENTS = ("hitch", "landing_gear", "kinetostatics", "slotted_link", "joint")
 ROUNDS = 5
-SECONDS = 0.5
 
 
 def jobs(stem: str) -> dict[str, Callable[[], object]]:
@@ -50,16 +48,13 @@ def least(work: dict[str, Callable[[], object]]) -> dict[str, float]:
     return taken
 
 
-def main(documents: Iterable[str] = DOCUMENTS) -> int:
-    slow = False
+def main(documents: Iterable[str] = DOCUMENTS) -> None:
     for stem in documents:
         seconds = least(jobs(stem))
         one = seconds["evaluation"]
-        slow |= seconds["proof"] > SECONDS
         told = ", ".join(f"{name} {own / one:.1f}" for name, own in seconds.items() if name != "evaluation")
         print(f"{stem:14} evaluation {1e3 * one:.0f} ms, in these: {told}")
-    return int(slow)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
