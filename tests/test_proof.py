@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb
+from own_worksheet import own
 from run_once import DOCUMENTS, WORKSHEETS, recorded
 
 from mechsheet.accuracy import exact, extreme
@@ -28,7 +29,6 @@ from mechsheet.worksheet import inputs, scene
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.table import Table, heading
-from tests.own_worksheet import own
 
 # --- rules -------------------------------------------------------------------------------------------------------
 
@@ -505,3 +505,11 @@ def test_digits_that_cannot_be_asked_for(proof: str, tmp_path: Path) -> None:
     path.write_text(f"proof = {proof}\n")
     with pytest.raises(SheetError, match=r"proof = .* must be a number of digits, 1\.\.15"):
         scene.load(path)
+
+
+def test_numbers_that_stand_in_each_other_twice_are_looked_at_once(tmp_path: Path) -> None:
+    """Of thirty in a row a proof never came to its end."""
+    chain = "".join(f"c{k + 1} = (c{k} + 0.3 * c{k}) / 1.3000001  # [-] number\n" for k in range(30))
+    sheet = own(tmp_path, f"c0 = 1.1  # [-] first\n{chain}y = g.F * c30  # [-] last")
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
+    assert proof_of(names, sheet, record(names, sheet, whole=True)).check(9).passed

@@ -74,6 +74,7 @@ class _Written:
                     self.names[name] = value
         for name in twice:
             del self.names[name]
+        self.made = dict[tuple[str, Callable[..., Any]], Any]()  # of each name once: one may stand in another twice
 
     def every(self) -> Iterator[tuple[Any, Quantity]]:
         """Each as numpy has it, and as a quantity of which the operations are kept."""
@@ -111,7 +112,9 @@ class _Written:
             case ast.Call(f, args, []) if _is_rule(called := self.value(f)):
                 return function(called)(*map(of, args))
             case ast.Name(name) if name in self.names:
-                return of(self.names[name])
+                if (name, function) not in self.made:
+                    self.made[name, function] = of(self.names[name])
+                return self.made[name, function]
         if type(x := self.value(node)) is float:
             return number(x)
         raise TypeError(f"{ast.unparse(node)} is no number")
