@@ -112,6 +112,12 @@ RIGHT = {
     "integral": ["x = linspace(0, g.L, 5)", "W = np.trapezoid(g.F * x, x)  # [N*m**2] W"],
     "slope": ["x = linspace(0, g.L, 5)", "v = np.gradient(x**2, x)  # [m] v", "d = np.diff(x)  # [m] d"],
     "table of literals": ["s = interp(g.L, [0, 1, 3], [200e6, 180e6, 150e6])  # [MPa] strength"],
+    "table of two rows": ["k = interp(g.L, [0, 4], [1.0, 3.0])  # [-] factor", "x = k * g.F  # [N] x"],
+    "table over even steps": ["F = interp(g.L, linspace(0, 4, 3), np.array([0, 1, 3]) * kN)  # [N] force"],
+    "curve through literals": [
+        "from scipy.interpolate import CubicSpline",
+        "k = CubicSpline([0, 2, 3], [1.0, 2, 7])(g.L) * g.F  # [N] force",
+    ],
     "table of inputs": ["s = interp(g.L, np.array([0, 1, 2]) * g.L, np.array([1, 0.9, 0.8]) * g.S)  # [MPa] s"],
     "polynomial": ["x = np.polyval([1, 2, 3], g.L / g.D)  # [-] x", "y = np.polyval([g.F, g.F * g.L], g.L)  # [N*m] y"],
     "complex": [
@@ -184,6 +190,9 @@ WRONG = {
     "constant of the setup": (["k = STRENGTH + g.F  # [Pa] k"], 1, "STRENGTH + g.F: adds Pa and N"),
     "declared in the setup": (["G = G_N * g.L  # [N] weight"], 1, "G: unit [N] does not fit; the value is in m²/s²"),
     "array declared in the setup": (["x = WIRES + g.F  # [N] x"], 1, "WIRES + g.F: adds m and N"),
+    "array with a unit": (["r = np.array([1.0, 2, 3]) * mm", "x = r + g.t"], 2, "r + g.t: adds m and s"),
+    "array of numbers": (["x = np.array([1.0, 2]) * g.L + g.F"], 1, "adds m and N"),
+    "axis of a table": (["k = interp(g.L, np.array([0, 4]) * second, [1, 3])"], 1, "subtracts s from m"),
     "sum of constants": (["k = 3 * mm + 2 * N"], 1, "3 * mm + 2 * N: adds m and N"),
     "a number that should have a unit": (
         ["k = 640e6 / g.S  # [-] reserve", "q = k + 1  # [-] q"],

@@ -13,6 +13,7 @@ from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.quantity import Quantity, is_any_length, joined, lift, moved
 from mechsheet.quantities.refused import compared
+from mechsheet.units import UNKNOWN
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
 _MOST = 8  # unknowns of a fit
@@ -162,10 +163,18 @@ def interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right
     in_order(graph, xp)
     piece = _rank(graph, xp[1:-1], x)
     start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
-    inside = low + (x - start) / (end - start) * (high - low)
+    inside = low + (x - start) / _of_any_unit(end - start) * _of_any_unit(high - low)
     inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
     return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
+
+
+def _of_any_unit(difference: Quantity) -> Quantity:
+    """A difference of numbers in a table; if they are literals, they may have a unit that nobody wrote."""
+    graph = difference.graph
+    return difference.each(
+        lambda node: node if node.args or node.op != "constant" else graph.constant(node.value, UNKNOWN)
+    )
 
 
 def in_order(graph: Graph, x: Quantity) -> None:

@@ -273,8 +273,6 @@ def _equations(solved: Solved) -> Iterator[tuple[Node, str, str]]:
 def _constant(reader: Reader, node: Node) -> Codes:
     if node.args:
         return reader.of_unit(*node.args)
-    if node.size > 1 and not np.isin(np.abs(node.value), (0, 1)).all():
-        return UNKNOWN  # a table may have a unit that nobody wrote
     return LITERAL if np.any(np.isfinite(node.value) & (np.abs(node.value + 0.0) > VANISHING)) else ANY
 
 
@@ -379,6 +377,8 @@ def _take(reader: Reader, node: Node) -> Codes:
 
 def _at(reader: Reader, node: Node) -> Codes:
     codes = reader.codes[node.args[0]]
+    if isinstance(codes, int) and codes == LITERAL:
+        return UNKNOWN  # a table that is looked up may have a unit that nobody wrote
     return codes if isinstance(codes, int) else UNKNOWN  # which of the unlike elements is not known
 
 
