@@ -361,6 +361,11 @@ COMPUTED = {  # numbers that Python rounds before a quantity meets them
     "g.a * np.tan(np.radians(89.99))": lambda a: a * mp.tan(mp.pi * mpf("89.99") / 180),
     "g.a * np.diff(np.array([0.1, 0.11]))[0]": lambda a: a * mpf("0.01"),
     "g.a * (0.1 + 0.2 - 0.3 + 1e-12)": lambda a: a * mpf("1e-12"),
+    "g.a * (math.sqrt(1 + abs(-1e-3) ** 2) - 1)": lambda a: a * (mp.sqrt(1 + mpf("1e-6")) - 1),
+    "g.a * (max(0.7, 0.1 * 7) - 0.7 + 1e-9)": lambda a: a * mpf("1e-9"),
+    "g.a * (7.25 % 0.7 - 0.2499)": lambda a: a * mpf("1e-4"),
+    "g.a * (np.exp(0.3j).imag - 0.2955)": lambda a: a * (mp.sin(mpf("0.3")) - mpf("0.2955")),
+    "g.a * (np.exp(1j * 0.3) * (0.1 + 0.2j)).real": lambda a: a * (mp.cos(mpf("0.3")) / 10 - mp.sin(mpf("0.3")) / 5),
 }
 
 

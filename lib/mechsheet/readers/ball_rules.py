@@ -179,7 +179,7 @@ _OF_PI = {p * np.pi / q: (p, q) for p, q in _PARTS} | {p * (np.pi / q): (p, q) f
 
 
 _WRITTEN = 12  # digits at most of a number that somebody has written
-_COMPUTED = 2.0**-52  # of any other: its rounding, and that of what it is made of
+_COMPUTED = 2.0**-50  # of any other: its rounding, and that of what it is made of
 
 
 def constant(x: Any) -> Any:

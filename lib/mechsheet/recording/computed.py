@@ -4,6 +4,7 @@
 """
 
 import ast
+import builtins
 import operator
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -29,6 +30,8 @@ _OPERATIONS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Pow: operator.pow, ast.Mod: operator.mod, ast.FloorDiv: operator.floordiv,
     ast.USub: operator.neg, ast.UAdd: operator.pos,
 }  # fmt: skip
+# Functions of Python's own, by numpy's of the same numbers.
+_PYTHON: dict[Any, Callable[..., Any]] = {abs: np.abs, sum: np.sum, pow: np.power, max: np.max, min: np.min}
 # What is raised by what is no number, or not made of numbers alone.
 _NO_NUMBER = NotRecorded, TypeError, ValueError, LookupError, AttributeError, ArithmeticError
 _Known = Mapping[float, Quantity]
@@ -40,7 +43,7 @@ def computed(graph: Graph, sheet: Worksheet) -> dict[Node, Node]:
     known, token = dict[float, Quantity](), current.set(graph)
     try:
         for found, made in _Written(graph, sheet).every():
-            if found.shape == made.extent and found.size <= _MOST and np.array_equal(found, made.value, equal_nan=True):
+            if found.shape == made.extent and found.size <= _MOST:  # whose numbers may be rounded otherwise
                 for x, one in zip(found.ravel().tolist(), made.ravel(), strict=True):
                     if is_computed(x):
                         known.setdefault(x, one)
@@ -79,11 +82,14 @@ class _Written:
     def every(self) -> Iterator[tuple[Any, Quantity]]:
         """Each as numpy has it, and as a quantity of which the operations are kept."""
         for node in chain.from_iterable(map(source.nodes, self.lines)):
-            if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call):
+            if isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call | ast.Attribute):
                 with suppress(*_NO_NUMBER):
                     found = np.asarray(self.of(node))
-                    if found.dtype.kind == "f":
-                        yield found, lift(self.graph, self.of(node, self.kept, instead))
+                    if found.dtype.kind in "fc":
+                        made = lift(self.graph, self.of(node, self.kept, _following))
+                        yield found.real, made.real
+                        if found.dtype.kind == "c":
+                            yield found.imag, made.imag
 
     def kept(self, x: Any) -> Quantity:
         """A number of which operations are kept, as of plain ones they are not, and what it moves is asked for."""
@@ -103,6 +109,10 @@ class _Written:
         match node:
             case ast.Constant(int() | float() as x):
                 return number(x)
+            case ast.Constant(complex() as x):
+                return number(x.imag) * 1j
+            case ast.Attribute(of_complex, "real" | "imag" as name):
+                return getattr(of(of_complex), name)
             case ast.List(parts) | ast.Tuple(parts):
                 return [of(part) for part in parts]
             case ast.UnaryOp(operation, operand):
@@ -123,11 +133,17 @@ class _Written:
         """What a name, or one in a module, is in the worksheet's setup."""
         match node:
             case ast.Name(name):
-                return self.common[name]
+                return self.common[name] if name in self.common else getattr(builtins, name)
             case ast.Attribute(of, name):
                 return getattr(self.value(of), name)
         raise TypeError(f"{ast.unparse(node)} is no name")
 
 
+def _following(f: Any) -> Callable[..., Any]:
+    """What takes quantities in place of a function of numpy's or Python's."""
+    rule = instead(_PYTHON.get(f, f))
+    return (lambda *x: rule(list(x) if x[1:] else x[0])) if f in (max, min) else rule
+
+
 def _is_rule(f: Any) -> bool:
-    return isinstance(f, np.ufunc) or f in MATH or f in FUNCTIONS or f in (np.array, np.asarray)
+    return isinstance(f, np.ufunc) or f in MATH or f in FUNCTIONS or f in (np.array, np.asarray, *_PYTHON)
