@@ -181,6 +181,7 @@ JUMPS = {
     "floored": "np.floor(g.F)",
     "sign": "np.sign(g.F - 3)",
     "remainder": "g.F % 2.6",
+    "how many go in": "(0.2 * g.F + 8.3) // g.F",
     "standard size": "next(size for size in (1, 2, 3, 4, 6) if g.F <= size)",
     "branch of Python": "1.0 if g.F < 3 else 4.0",
     "choice": "np.where(g.F < 3, g.F, 2 * g.F)",
@@ -379,6 +380,25 @@ def test_what_slopes_mislead_about_is_told_by_cases(tmp_path):
     by_name = {b.name: b.cells() for b in found.banded}
     assert re.match(r"it bends: \S+\.\.1 in 1000 random cases", by_name["e"][-1])
     assert by_name["s"][-1].startswith("it bends: 2..5 in") and by_name["z"][-1] == "it ends within the tolerances"
+
+
+def test_what_bends_to_where_a_line_goes_another_way_jumps(tmp_path):
+    """By its slope the square of 2.5 ± 1 gets to 11.25, and in truth to 12.25."""
+    more = "\ns = np.where(g.F**2 > LIMIT, 1, 2) * g.a  # [-] size by a square"
+    for limit, jumps in (("11.5", True), ("12.5", False)):
+        found, _ = bands(off(tmp_path, 9, "± 1", "± 0.5", more.replace("LIMIT", limit)))
+        told = next(b for b in found.banded if b.name == "s").cells()[-1]
+        assert told.startswith("it jumps or bends: 0.25..2.5 in") == jumps and (told == "") != jumps
+
+
+def test_all_ends_of_few_tolerances_are_looked_at(tmp_path):
+    """What has a value at seven of eight ends."""
+    sheet = off(tmp_path, 9, "± 1", "± 0.5", "\nz = np.sqrt(1.8 - g.F + g.a + g.b)  # [-] none for some")
+    path = Path(sheet.path)
+    third = "    b: float = 1.5  # [-] third; ± 0.5\n    n: int"
+    path.write_text(path.read_text(encoding="utf-8").replace("    n: int", third, 1), encoding="utf-8")
+    found, _ = bands(cells.load(path))
+    assert next(b for b in found.banded if b.name == "z").cells()[-1] == "it ends within the tolerances"
 
 
 def test_cases_print_and_warn_of_nothing(tmp_path, capsys):

@@ -7,6 +7,7 @@ some corners of the tolerances show that the slopes mislead, cases do. At a corn
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +19,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import Values
 from mechsheet.readers.beside import beside
 from mechsheet.readers.cases import Cases, in_cases
-from mechsheet.readers.jumps import Jump, jumps
+from mechsheet.readers.jumps import MISLED, Jump, jumps
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import seen, slopes, unfollowed
 from mechsheet.readers.terms import made_of, size_of
@@ -28,8 +29,7 @@ from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
-_CORNERS = 8  # random ones of all tolerances, at which and opposite to which it is looked whether slopes mislead
-_MISLED = 1.5  # times a band: what gets farther off there has none by the slopes
+_CORNERS = 8  # at so many ends of all tolerances, and opposite to these, it is looked whether slopes mislead
 _LITTLE = 0.1  # of how far a check moves: a reserve that is less may be another one by what bends a little
 _CRITICAL = 100  # elements of a check that are judged at a time
 BENDS, ENDS = "it bends", "it ends within the tolerances"  # what slopes do not tell
@@ -115,8 +115,7 @@ class Bands:
         self.recording, self.by, self.run = recording, list(by.values()), run
         self.inputs = [recording.inputs[name] for name in by]
         self.known, self.ran = dict[Node, Band](), False
-        corners = np.random.default_rng(0).choice([-1.0, 1.0], (_CORNERS, len(by)))
-        self.places = np.unique(np.concatenate([corners, -corners]), axis=0)
+        self.places = _places(len(by))
         self.there = [dict[Node, Values]() for _ in self.places]
 
     @cached_property
@@ -188,7 +187,7 @@ class Bands:
         self.look([node, *guards])
         known, worst = np.isfinite(node.value), self.known[node].worst
         rounding = max(_ROUNDING * size_of(node), _LEFT * made_of(node, self.recording.made_of))
-        within = _MISLED * worst + rounding
+        within = MISLED * worst + rounding
         bends = False
         for there in self.there:
             if not all(there[guard].all() for guard in guards):
@@ -265,6 +264,14 @@ class Bands:
                     f = t.field
                     return f"{word} for {f.name} = {numbers.significant(f.display(end), 6)}{numbers.suffix(f.unit)}"
         return "at both ends of each tolerance"
+
+
+def _places(count: int) -> Values:
+    """Ends of so many tolerances, in parts of them, a row for each place: all that there are, or random ones."""
+    if 2**count <= 2 * _CORNERS:
+        return np.array([*product((-1.0, 1.0), repeat=count)])
+    corners = np.random.default_rng(0).choice([-1.0, 1.0], (_CORNERS, count))
+    return np.unique(np.concatenate([corners, -corners]), axis=0)
 
 
 def _flat(moves: Values) -> Values:

@@ -1,13 +1,18 @@
 """Where a recording goes another way within tolerances: comparisons, whole numbers and choices, by the slopes."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE, Values
+from mechsheet.readers.numbers import numbers
 from mechsheet.readers.slopes import slopes
+from mechsheet.worksheet.errors import OF_NUMBERS
+
+MISLED = 1.5  # times what slopes say: as far off a number may be that is not said to bend
+_PLACES = 8  # ends of the tolerances, and those opposite to them, at which it is looked whether a line goes another way
 
 
 class Jump(NamedTuple):
@@ -21,10 +26,12 @@ class Jump(NamedTuple):
 def jumps(wanted: Iterable[Node], by: Sequence[Node], sizes: Sequence[float]) -> dict[Node, Jump]:
     """Of some quantities those that rest on what goes another way where inputs are up to ``sizes`` off.
 
-    To the first order, as bands are; whether a quantity jumps there or only bends, cases tell.
+    To the first order, as bands are, and a little beyond where it does so at an end of these; whether a quantity jumps
+    there or only bends, cases tell.
     """
     wanted, moving = list(wanted), set(by)
     order, steps = _order(wanted), dict[Node, _Turns]()
+    outer = set(bottom_up(wanted, ()))
     for node in order:
         if not moving.isdisjoint(node.operands):
             moving.add(node)
@@ -44,7 +51,8 @@ def jumps(wanted: Iterable[Node], by: Sequence[Node], sizes: Sequence[float]) ->
     found = dict[Node, Jump]()
     for node, turns in steps.items():
         moved = [moves(x) for x in node.operands]
-        if turns(node, moved):
+        beyond = node in outer and turns(node, [MISLED * m for m in moved])
+        if turns(node, moved) or (beyond and _turned(node, moved, dict(zip(by, sizes, strict=True)))):
             found[node] = Jump(node.line, tuple(k for k in range(len(most)) if any(np.any(m[k] != 0) for m in moved)))
     known = -1
     while known < len(found):  # what is found rests on its equations, which rest on it
@@ -74,6 +82,22 @@ def _order(wanted: Sequence[Node]) -> list[Node]:
         roots += dict.fromkeys(new)
 
 
+def _turned(node: Node, moves: Sequence[Values], sizes: Mapping[Node, float]) -> bool:
+    """Whether something is another one at those ends of the tolerances to which slopes move it most."""
+    first, *others = (m.reshape(len(m), *[1] * (len(node.shape) + 1 - m.ndim), *m.shape[1:]) for m in moves)
+    apart = first - others[0] if others else first
+    ends = np.unique(np.sign(apart.reshape(len(apart), -1)), axis=1).T[:_PLACES]
+    for end in np.concatenate([ends, -ends]):
+        at = {x: x.value + part * size for (x, size), part in zip(sizes.items(), end, strict=True)}
+        try:
+            there = numbers([node], at)[node]
+        except OF_NUMBERS:  # as of a Find that has no interval there
+            return True
+        if not np.array_equal(there, node.value, equal_nan=node.value.dtype.kind == "f"):
+            return True
+    return False
+
+
 def _off(moves: Sequence[Values], which: int = 0) -> Values:
     return np.asarray(np.abs(moves[which]).sum(0))
 
@@ -101,8 +125,9 @@ def _whole(node: Node, moves: Sequence[Values]) -> bool:
 
 def _mod(node: Node, moves: Sequence[Values]) -> bool:
     a, b = (x.value for x in node.operands)
-    off = _off(moves)
-    return bool(np.any(np.isfinite(a / b) & ~(np.floor((a - off) / b) == np.floor((a + off) / b))))
+    p, q = (m.reshape(len(m), *[1] * (len(node.shape) + 1 - m.ndim), *m.shape[1:]) for m in moves)
+    turns, off = a / b, np.abs((p - q * (a / b)) / b).sum(0)
+    return bool(np.any(np.isfinite(turns) & ~(np.floor(turns - off) == np.floor(turns + off))))
 
 
 def _first(node: Node, moves: Sequence[Values]) -> bool:
