@@ -164,6 +164,43 @@ def test_what_is_not_recorded_is_differentiated_by_differences_and_says_so(tmp_p
     assert "slope is 1 ahead and -1 behind" in found.reasons["F"] and found.reasons["a"] == ""
 
 
+SEARCHED = """
+low, high = 0.0, 9.0
+for _ in range(50):
+    middle = (low + high) / 2
+    if middle**3 + g.a * middle > g.F:
+        high = middle
+    else:
+        low = middle
+root = (low + high) / 2  # [-] by halves
+bent = root + abs(g.F - 2.5)  # [-] with a corner"""
+
+
+def test_what_a_loop_searches_by_halves_moves_though_no_step_of_it_does(tmp_path):
+    found = sensitivity(own(tmp_path, SEARCHED).path, ["root"])
+    x = float(found.values["root"])
+    assert found.slopes["root"].tolist() == pytest.approx([1 / (3 * x**2 + 0.75), -x / (3 * x**2 + 0.75)], rel=1e-6)
+    assert "moves it by steps" in found.differences["root"] and set(found.reasons.values()) == {""}
+    found = sensitivity(own(tmp_path, SEARCHED).path, ["bent"])
+    assert np.isnan(found.slopes["bent"][0]) and "corner" in found.reasons["F"]
+
+
+def test_differences_tell_a_corner_from_a_slope(tmp_path):
+    lines = """
+y = float(f"{g.F:.17g}")
+w = max(y - 2.5, 0) + y**2 + 3 * g.a  # [-] with a corner"""
+    found = sensitivity(own(tmp_path, lines).path, ["w"])
+    assert np.isnan(found.slopes["w"][0]) and found.reasons == {"F": "w has a corner there", "a": ""}
+    assert found.slopes["w"][1] == pytest.approx(3.0, rel=1e-9)
+
+
+def test_of_a_result_that_is_nothing_the_inputs_have_an_order_too(tmp_path):
+    found = sensitivity(own(tmp_path, "\nb = g.a * (g.F - 2.5) + 0.01 * (g.a - 0.75)  # [-] nothing").path, ["b"])
+    assert found.table("1", "", "b").columns[0].values.tolist() == ["F", "a"]
+    found = sensitivity(own(tmp_path, "\nb = g.F * (g.a - 0.75) + 0.01 * (g.F - 2.5)  # [-] nothing").path, ["b"])
+    assert found.table("1", "", "b").columns[0].values.tolist() == ["a", "F"]
+
+
 KNOTS = """
 from scipy.interpolate import CubicSpline
 t = np.interp(g.F, [0.0, 2.5, 9.0], [0.0, 5.0, 31.0])  # [-] at an abscissa of a table

@@ -14,6 +14,7 @@ from mechsheet.readers.bands import untold
 from mechsheet.readers.beside import beside
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import Slope, seen, slopes, solved_under, unfollowed
+from mechsheet.readers.stepping import stepping
 from mechsheet.recording.record import record
 from mechsheet.run.banding import part_of
 from mechsheet.run.silent import silently
@@ -32,6 +33,7 @@ Position = int | Literal["least", "greatest"]
 _STEP = 2.0**-5  # of an input's size: the widest step
 _HALVINGS = 7  # steps down to 2**-12 of the size
 _ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
+_CORNER = 1e-3  # of a slope: by more those on either side differ at a corner
 _BARS = 12
 _DRAWS = 4  # of inputs changed by one rounding
 
@@ -133,8 +135,9 @@ class Sensitivity:
         return Tornado(number, title, name, bars)
 
     def _order(self, name: str, at: Position) -> list[int]:
-        """Inputs by their elasticity at a position, the largest first and those without one last."""
-        size = np.abs(self.relative(name).reshape(len(self.inputs), -1)[:, self.position(name, at)])
+        """Inputs by their elasticity at a position, the largest first and those without one last; of no result too."""
+        slopes = self.slopes[name].reshape(len(self.inputs), -1)[:, self.position(name, at)]
+        size = np.abs(slopes * list(self.inputs.values()))
         order: list[int] = np.argsort(-np.nan_to_num(size, nan=-1.0), kind="stable").tolist()
         return order
 
@@ -249,9 +252,12 @@ def sensitivity(
         widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
         quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
         found[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
+        bent = _has_corner(2 * (moved[:, 0] + moved[:, 1] - 2 * values[name]) / widths, found[name])
+        found[name], errors[name] = (np.where(bent, np.nan, x) for x in (found[name], errors[name]))
         for i, x in enumerate(chosen):
             if np.isnan(found[name][i]).any():
-                lost[x] = next((reason for reason in reasons[i][::-1] if reason), "the result itself has no value")
+                cause = f"{name} has a corner there" if bent[i].any() else "the result itself has no value"
+                lost[x] = next((reason for reason in reasons[i][::-1] if reason), cause)
     return Sensitivity(
         names,
         {x: at[x] for x in chosen},
@@ -281,10 +287,12 @@ def _of_recording(
     for name, node in nodes.items():
         if node and np.isnan([*here[node]]).all(0).any() and not lacking[name]:
             lacking[name] = seen([node], inputs)
-    exact = {name: node for name, node in nodes.items() if node and not lacking[name]}
+    steps = stepping({node: here[node] for name, node in nodes.items() if node and not lacking[name]}, inputs)
+    exact = {name: node for name, node in nodes.items() if node and not lacking[name] and node not in steps}
     none = "it is no recorded number"
     why = dict.fromkeys((name for name in names if name not in exact), none)
     why |= {name: untold(node, recording.gaps) for name, node in lacking.items() if node}
+    why |= {name: f"line {steps[node]} moves it by steps" for name, node in nodes.items() if node in steps}
     wanted = list(dict.fromkeys(exact.values()))
     off = {node: np.zeros_like(here[node].ahead) for node in wanted}
     rng = np.random.default_rng(0)
@@ -330,6 +338,14 @@ def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, 
         before = row
     flat = np.all(quotients == 0, axis=1)  # no influence at all: no error either
     return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
+
+
+def _has_corner(bends: Array, slopes: Array) -> NDArray[np.bool_]:
+    """Whether slopes on either side differ by as much at the smallest steps; of what only bends by half at each."""
+    with np.errstate(all="ignore"):
+        ratios = bends[:, -2:] / bends[:, -3:-1]
+        corner: NDArray[np.bool_] = np.all((ratios > 0.75) & (ratios < 1 / 0.75), axis=1)
+        return corner & (np.abs(bends[:, -1]) > _CORNER * np.abs(slopes))
 
 
 def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:
