@@ -1,6 +1,7 @@
 """Bands of results within the tolerances of inputs: against random cases, by hand, and what is said of checks."""
 
 import re
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -399,6 +400,20 @@ def test_all_ends_of_few_tolerances_are_looked_at(tmp_path):
     path.write_text(path.read_text(encoding="utf-8").replace("    n: int", third, 1), encoding="utf-8")
     found, _ = bands(cells.load(path))
     assert next(b for b in found.banded if b.name == "z").cells()[-1] == "it ends within the tolerances"
+
+
+@pytest.mark.parametrize("name", ["seed", "count", "method", "want", "inputs", "g"])
+def test_inputs_may_be_called_as_what_a_study_is_asked_is(name, tmp_path, capsys):
+    path = Path(off(tmp_path, 9, more=f"\ns = g.F * g.{name}  # [-] product").path)
+    more = f"    {name}: float = 3.0  # [-] named so\n    n: int"
+    path.write_text(path.read_text(encoding="utf-8").replace("    n: int", more, 1), encoding="utf-8")
+    sheet = cells.load(path)
+    given = arguments.read(["--tolerances", "--want=s", "--F=5"], declared(sheet.inputs))
+    batch.answer(sheet.path, replace(given, inputs={**given.inputs, name: "4"}))
+    assert re.search(r"^20 .* 16\.0\d+\.\.23\.9\d+ +16\.\.24$", capsys.readouterr().out, re.MULTILINE)
+    g = sheet.inputs(F=5.0, **{name: 4.0})
+    _, table_1 = studied.matters(sheet, {"g": g, "__file__": sheet.path}, "s", "0")
+    assert dict(zip(table_1.columns[0].values, table_1.columns[4].values, strict=True)) == {"F": 4, name: 5, "a": 0}
 
 
 def test_cases_print_and_warn_of_nothing(tmp_path, capsys):

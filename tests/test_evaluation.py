@@ -193,3 +193,13 @@ def test_a_function_is_recorded_once_for_the_same_quantities_and_what_it_sees_is
     once(graph, f, [y, 0.0], {})
     once(graph, f, [x, -0.0], {})
     assert len(calls) == 3, "equal numbers are not the same quantity, nor 0.0 the same as -0.0"
+
+
+def test_an_input_may_be_called_g_and_all_inputs_be_given_by_it(tmp_path):
+    path = own(tmp_path, "W = g.F * g.g  # [-] weight").path
+    text = Path(path).read_text(encoding="utf-8")
+    Path(path).write_text(
+        text.replace("    a: float", "    g: float = 9.81  # [-] gravity\n    a: float"), encoding="utf-8"
+    )
+    assert evaluate(path, ["W"], g=10.0, F=3.0)["W"] == 30.0
+    assert evaluate(path, ["W"], g=cells.load(path).inputs(F=2.0))["W"] == 2 * 9.81

@@ -1,6 +1,6 @@
 """A worksheet file as a function: ask for some results, and only what they need is computed."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -29,8 +29,7 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
     """
     sheet, names = load(worksheet), asked(want)
-    whole = "g" in given and sheet.inputs is not NoInputs
-    g = given.pop("g") if whole else inputs.build(sheet.inputs, given)
+    g = given.pop("g") if _is_whole(sheet, given) else inputs.build(sheet.inputs, given)
     if not getattr(type(g), "__inputs__", ()):
         return by_cells(sheet, names, g)
     key, ways = (sheet.path, names), _ways(g)
@@ -46,6 +45,12 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
         if (found := known.again(g)) is not None:
             return found
     return by_cells(sheet, names, g)
+
+
+def _is_whole(sheet: Worksheet, given: Mapping[str, Any]) -> bool:
+    """Whether ``g`` is all inputs, and not one of them, such as that of gravity."""
+    own = any(field.name == "g" for field in inputs.declared(sheet.inputs))
+    return "g" in given and sheet.inputs is not NoInputs and (not own or hasattr(type(given["g"]), "__inputs__"))
 
 
 def by_cells(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:

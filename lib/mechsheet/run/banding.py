@@ -19,7 +19,6 @@ from mechsheet.run.within import cases
 from mechsheet.worksheet import numbers, shown
 from mechsheet.worksheet.cells import Worksheet, base, split
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.no_inputs import inputs_of
 from mechsheet.worksheet.scene import Scene
@@ -77,9 +76,7 @@ def lines(
     nodes = {name: node for name, node in nodes.items() if not gaps[name]}
     if nodes:
         found = bands.of(nodes.values())
-        here = Used(namespace["g"]).given()
-        drawn = {name: here[name] for name in given.inputs}
-        sampled = _sampled(sheet, [*nodes], drawn)
+        sampled = _sampled(sheet, [*nodes], namespace["g"])
         bounds = _bounds(nodes.values(), recording.inputs, by)
         jumping = bands.jumps(nodes.values())
         for name, node in nodes.items():
@@ -99,9 +96,9 @@ def lines(
             yield f"{check.name}: {check.verdict} {bands.sure(check.name, check.passed)}"
 
 
-def _sampled(sheet: Worksheet, names: Sequence[str], given: Mapping[str, Any]) -> dict[str, Any]:
+def _sampled(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:
     """Random cases of each result: of all at once, but where one has no value in some of them the others may."""
-    draw = partial(shown.study("tolerance"), sheet.path, method="monte carlo", seed=1, count=_CASES, **given)
+    draw = partial(shown.study("tolerance"), sheet.path, method="monte carlo", seed=1, count=_CASES, g=g)
     together = draw(names)
     alone = together.lost and len(names) > 1
     return {name: draw([name]) if alone else together for name in names}

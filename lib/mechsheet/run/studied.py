@@ -33,8 +33,7 @@ def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position:
     at: Any = int(position) if position.isdecimal() else position
     if not isinstance(at, int) and at not in ("least", "greatest"):
         raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
-    given = Used(inputs_of(namespace)).given()
-    found = shown.study("sensitivity")(sheet.path, [name], **given)
+    found = shown.study("sensitivity")(sheet.path, [name], g=inputs_of(namespace))
     title = f"What matters for {name}"
     return found.tornado("", title, name, at), found.table("", title, name, at)
 

@@ -199,7 +199,7 @@ def sensitivity(
         By which of the inputs; by all that are no whole numbers by default. An input that is zero has the size of
         the largest one with its unit.
     given
-        Inputs in their display units that replace the defaults.
+        Inputs in their display units that replace the defaults, or the whole of them as ``g``.
 
     Returns
     -------
@@ -216,7 +216,7 @@ def sensitivity(
     ----------
     C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
-    names = tuple(dict.fromkeys(want))
+    names, given = tuple(dict.fromkeys(want)), by_name(worksheet, given)
     fields, at = point(worksheet, given)
     chosen = [x for x, f in fields.items() if f.continuous] if inputs is None else list(dict.fromkeys(inputs))
     for x in chosen:
@@ -346,6 +346,16 @@ def _has_corner(bends: Array, slopes: Array) -> NDArray[np.bool_]:
         ratios = bends[:, -2:] / bends[:, -3:-1]
         corner: NDArray[np.bool_] = np.all((ratios > 0.75) & (ratios < 1 / 0.75), axis=1)
         return corner & (np.abs(bends[:, -1]) > _CORNER * np.abs(slopes))
+
+
+def by_name(worksheet: str | Path, given: Mapping[str, Any]) -> dict[str, Any]:
+    """What is given, each input by its name; of the whole as ``g`` those that are not the worksheet's own."""
+    if not hasattr(type(given.get("g")), "__inputs__"):
+        return dict(given)
+    own = declarations.Used(load(worksheet).inputs()).given()
+    used = declarations.Used(given["g"]).given()
+    others = {name: x for name, x in given.items() if name != "g"}
+    return {**{name: x for name, x in used.items() if name not in own or x != own[name]}, **others}
 
 
 def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, Input], dict[str, float]]:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.studies.sensitivity import continuous, point, real, solved
+from mechsheet.studies.sensitivity import by_name, continuous, point, real, solved
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base
@@ -119,7 +119,7 @@ def tolerance(
         An unknown name, a negative tolerance or one of a whole number, more corners than 4096, Monte Carlo without a
         seed, inputs given that have no solution.
     """
-    names = tuple(dict.fromkeys(want))
+    names, given = tuple(dict.fromkeys(want)), by_name(worksheet, given)
     fields, at = point(worksheet, given)
     normal = [distribution == "normal"] * len(tolerances or ())
     if tolerances is None:
