@@ -71,6 +71,8 @@ def test_what_differs_between_two_revisions_is_told(bolt, monkeypatch, capsys) -
         "numbers:",
         f"  U: {old:.6g} -> {new:.6g}  {new - old:+.4g} (+100 %)",
         f"  U_x: 0..{old:.6g} -> 0..{new:.6g}  {new - old:+.4g} (+100 %)",
+        "checks:",
+        f"  use: {old:.5g} <= 1 -> {new:.5g} <= 1  {new - old:+.4g} (+100 %)",
     ]
 
 
@@ -176,6 +178,51 @@ def test_a_greater_number_of_the_same_dimension_hides_only_what_rounding_moves_a
     assert code == 1 and "s: 1.125 -> 1.2  +0.075 (+6.67 %)" in out and "left" not in out and "N:" not in out
     code, out, _ = compared(path, monkeypatch, capsys, "old.toml", "other.toml")
     assert code == 1 and "left" not in out and " s:" not in out
+
+
+SHOWN = """
+from mechsheet import Column, Table, check
+M = 2 * g.F * g.a  # [N*m] moment
+word = "big" if M > 5 else "small"
+for name in ("first", "second"):
+    check(name, M, 9, "N*m")
+w, s = Column("w", "N", "doubles", 1, np.array([1.0, 2.0]) * g.F), Column("s", "", "", 0, ["a", "b"])
+t_1 = Table("2", "Own", (w, s))
+c_1 = check("moment", M, 5, "N*m")
+c_2 = check("agreeing", g.F * g.a * 2 - M, 1e-9, "N*m", of=M)"""
+SHOWN_OTHERWISE = {
+    ("M, 5,", "M, 7,"): "check moment: 3.75 <= 5 N·m -> 3.75 <= 7 N·m",
+    ("M, 5,", "M / 2, 5,"): "check moment: 3.75 <= 5 N·m -> 1.875 <= 5 N·m  -1.875 N·m (-50 %)",
+    ("M, 5, ", "M, at_least=3, unit="): "check moment: 3.75 <= 5 N·m -> 3.75 >= 3 N·m",
+    ("M, 9,", "M, 1,"): "verdict second: PASS -> FAIL",
+    ("M > 5", "M > 3"): "text word: small -> big",
+    ("2.0]) * g.F", "3.0]) * g.F"): "number table 2 w: 2.5..5 N -> 2.5..7.5 N  +2.5 N (+50 %)",
+    ('["a", "b"]', '["a", "c"]'): "text table 2 s: a; b -> a; c",
+    ("[N*m] moment", "[kN*m] moment"): "number M: 3.75 N·m -> 0.00375 kN·m  the same in another unit",
+    ("1e-9,", "1e-3,"): "check agreeing: 0 <= 3.8e-9 N·m -> 0 <= 0.0037 N·m",
+    ("2.5  # [-] number", "2.5  # [-] number; > 1; ± 1"): "bound F: none -> > 1; ± 1",
+}
+
+
+@pytest.mark.parametrize("edit", SHOWN_OTHERWISE)
+def test_whatever_a_document_shows_otherwise_differs(edit, tmp_path, monkeypatch, capsys) -> None:
+    """A limit, a verdict that no name keeps, a column or a text of one's own: nothing of it is a result of a line."""
+    path = Path(own(tmp_path, SHOWN).path)
+    text = path.read_text(encoding="utf-8")
+    assert edit[0] in text
+    (tmp_path / "new.py").write_text(text.replace(*edit), encoding="utf-8")
+    code, out, _ = compared(path, monkeypatch, capsys, "own.py", "new.py")
+    kind, _, told = SHOWN_OTHERWISE[edit].partition(" ")
+    assert code == 1 and f"{kind}s:\n" in out and f"  {told}\n" in out
+    assert compared(path, monkeypatch, capsys, "new.py", "new.py")[:2] == (0, "nothing differs\n")
+
+
+def test_what_agreements_leave_is_no_difference(tmp_path, monkeypatch, capsys) -> None:
+    path = Path(own(tmp_path, SHOWN).path)
+    for name, F in (("old", 2.5), ("new", 2.7)):
+        (tmp_path / f"{name}.toml").write_text(f"[inputs]\nF = {F}\n", encoding="utf-8")
+    code, out, _ = compared(path, monkeypatch, capsys, "old.toml", "new.toml")
+    assert code == 1 and "  moment: 3.75 <= 5 N·m -> 4.05 <= 5 N·m  +0.3 N·m (+8 %)" in out and "agreeing" not in out
 
 
 def test_rounding_is_no_difference() -> None:

@@ -10,11 +10,13 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import cache, partial
+from itertools import chain
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,33 +30,38 @@ from mechsheet.run.silent import silently
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
 from mechsheet.worksheet.cells import Worksheet, load
-from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
+from mechsheet.worksheet.check import Check, unkept
+from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, cut
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
+from mechsheet.worksheet.table import Column, Table
 
 _SAME = 1e-12  # of the greatest value of a result: what differs by less is rounding
 _ZERO = 1e-13  # of the greatest value of its dimension: a result that is less may be zero but for rounding
 _DRAWS = 4  # of inputs off by some roundings, which moves what is zero but for rounding
 _ROUNDINGS = 64  # of an input at most
+_ALIKE = 10  # times a limit that is a part of something: more is another part
+_CHECK = "check "  # before the name of what one compares
 _AS_MUCH = 16  # times what these move it by: roundings of another kind may leave as much
 
 
 class State(NamedTuple):
     """What a document shows in one state, by name."""
 
-    inputs: dict[str, tuple[str, str]]  # as they are listed, and in full
+    inputs: dict[str, tuple[str, ...]]  # as they are listed, in full, and their limits with the tolerance
     formulas: dict[str, str]
-    numbers: dict[str, Displayed]
+    numbers: dict[str, Displayed]  # results, columns that stand in a table alone, and what checks compare
     verdicts: dict[str, str]
     shaken: Callable[[], dict[str, float]] | None = None  # how much roundings of the inputs move numbers, in SI
+    texts: Mapping[str, str] = MappingProxyType({})
+    checks: Mapping[str, Check] = MappingProxyType({})
 
 
 class Change(NamedTuple):
-    """What changed: an input, a formula, a number or a verdict; empty where there is none, and by how much."""
+    """What changed: an input, a formula, a number, a text, a check; empty where there is none, and by how much."""
 
     kind: str
     name: str
@@ -120,8 +127,7 @@ def _of(sheet: Worksheet, scene: Scene) -> State:
     g: Any = inputs.build(sheet.inputs, scene.inputs)
     names = sheet.run(sheet.results, beforehand(g))
     lines = registry(names)
-    values = [value for value in parts.values(names) if isinstance(value, Check)]
-    judged = results.limited(values, scene.limits, names)
+    judged = results.limited(_checks(names), scene.limits, names)
     shown = _numbers(names)
     return State(
         {f.name: _shown(f, getattr(g, f.name)) for f in inputs.declared(sheet.inputs)},
@@ -129,6 +135,8 @@ def _of(sheet: Worksheet, scene: Scene) -> State:
         shown,
         {check.name: verdict(check) for check in judged},
         partial(_shaken, sheet, g, shown),
+        {name: cut(text) for name, text in _texts(names, sheet.results)},
+        {check.name: check for check in judged},
     )
 
 
@@ -164,12 +172,47 @@ def _by_roundings(g: Any, rng: np.random.Generator) -> Any:
 
 def _numbers(names: dict[str, Any]) -> dict[str, Displayed]:
     lines = registry(names)
-    return {q.name: q for name, line in lines.items() for q in _quantities(name, line.arguments, names)}
+    found = [q for name, line in lines.items() for q in _quantities(name, line.arguments, names)]
+    for name, column in _own_columns(names):
+        if column.values.dtype.kind in "biuf" and column.values.size:
+            found.append(Displayed(name, column.unit or "-", column.meaning, column.values.astype(float)))
+    for check in _checks(names):
+        found.append(Displayed(f"{_CHECK}{check.name}", _measured(check.unit), "", np.array([check.residual])))
+    return {q.name: q for q in found}
 
 
-def _shown(field: Input, value: Any) -> tuple[str, str]:
+def _measured(unit: str) -> str:
+    """A unit; that of numbers for what is counted, in words."""
+    try:
+        units.parse(unit)
+    except ValueError:
+        return "-"
+    return unit
+
+
+def _checks(names: dict[str, Any]) -> list[Check]:
+    kept = [value for value in parts.values(names) if isinstance(value, Check)]
+    return kept + unkept(names, kept)
+
+
+def _own_columns(names: dict[str, Any]) -> Iterator[tuple[str, Column]]:
+    """Columns of tables that are not those of lines."""
+    for table in (value for value in parts.values(names) if isinstance(value, Table)):
+        yield from ((f"table {table.number} {column.symbol}", column) for column in table.columns if not column.of)
+
+
+def _texts(names: dict[str, Any], of_cells: Iterable[str]) -> Iterator[tuple[str, str]]:
+    yield from ((name, names[name]) for name in of_cells if isinstance(names.get(name), str))
+    for name, column in _own_columns(names):
+        if column.values.dtype.kind in "OU":
+            yield name, "; ".join(map(str, column.values))
+
+
+def _shown(field: Input, value: Any) -> tuple[str, ...]:
     unit = numbers.suffix(field.unit)
-    return f"{field.brief(value)}{unit}", f"{field.text(value)}{unit}"
+    limits = " ".join(f"{sign} {other}" for sign, other in field.limits)
+    tolerance = field.tolerance.text(field.unit) if field.tolerance else ""
+    return f"{field.brief(value)}{unit}", f"{field.text(value)}{unit}", "; ".join(filter(None, (limits, tolerance)))
 
 
 def _quantities(name: str, takes: Sequence[str], names: dict[str, Any]) -> list[Displayed]:
@@ -180,9 +223,11 @@ def _quantities(name: str, takes: Sequence[str], names: dict[str, Any]) -> list[
 def changes(old: State, new: State) -> Iterator[Change]:
     """What differs, inputs first."""
     for name in dict.fromkeys([*old.inputs, *new.inputs]):
-        a, b = old.inputs.get(name, ("", "")), new.inputs.get(name, ("", ""))
-        if a != b:
+        a, b = old.inputs.get(name, ("", "", "")), new.inputs.get(name, ("", "", ""))
+        if a[:2] != b[:2]:
             yield Change("input", name, a[0], b[0], "in a row that is not shown" if a[0] == b[0] else "")
+        if name in old.inputs and name in new.inputs and a[2] != b[2]:
+            yield Change("bound", name, a[2], b[2])
     for name in dict.fromkeys([*old.formulas, *new.formulas]):
         if old.formulas.get(name) != new.formulas.get(name):
             yield Change("formula", name, old.formulas.get(name, ""), new.formulas.get(name, ""))
@@ -196,11 +241,40 @@ def changes(old: State, new: State) -> Iterator[Change]:
         both = [each.shaken() if each.shaken else dict.fromkeys(each.numbers, np.inf) for each in (old, new)]
         return {name: max(moved.get(name, 0.0) for moved in both) for name in old.numbers}
 
-    for name in dict.fromkeys([*old.numbers, *new.numbers]):
-        yield from _changed(name, old.numbers.get(name), new.numbers.get(name), sizes, rounding)
+    moved = {
+        name: [*_changed(name, old.numbers.get(name), new.numbers.get(name), sizes, rounding)]
+        for name in dict.fromkeys([*old.numbers, *new.numbers])
+    }
+    yield from chain.from_iterable(found for name, found in moved.items() if not name.startswith(_CHECK))
+    for name in dict.fromkeys([*old.texts, *new.texts]):
+        if old.texts.get(name) != new.texts.get(name):
+            yield Change("text", name, old.texts.get(name, ""), new.texts.get(name, ""))
+    for name in (name for name in old.checks if name in new.checks):
+        both = old.checks[name], new.checks[name]
+        by = [change.by for change in moved.get(f"{_CHECK}{name}", []) if not _agree(*both)]
+        if by or _has_another_limit(*both):
+            yield Change("check", name, *map(_said, both), *by)
     for name in dict.fromkeys([*old.verdicts, *new.verdicts]):
         if old.verdicts.get(name) != new.verdicts.get(name):
             yield Change("verdict", name, old.verdicts.get(name, ""), new.verdicts.get(name, ""))
+
+
+def _agree(old: Check, new: Check) -> bool:
+    """Whether two computations agree in both states: what they leave is rounding."""
+    return old.agrees and new.agrees
+
+
+def _has_another_limit(old: Check, new: Check) -> bool:
+    """Whether a limit differs; that of an agreement, a part of what agrees, by more than this does for other inputs."""
+    a, b = (check.limit * units.parse(_measured(check.unit)).factor for check in (old, new))
+    same = abs(a - b) <= _SAME * abs(a) or (_agree(old, new) and a < _ALIKE * b and b < _ALIKE * a)
+    return old.at_least != new.at_least or not (a == b or same)
+
+
+def _said(check: Check) -> str:
+    """What a check compares, and its limit."""
+    residual, limit = check.compared
+    return f"{residual} {'>=' if check.at_least else '<='} {limit}{numbers.suffix(check.unit)}"
 
 
 def _si(quantity: Displayed) -> NDArray[np.float64]:
@@ -237,6 +311,8 @@ def _changed(
     most = float(by.ravel()[int(np.abs(by).argmax())])
     greatest, size = _greatest(a), max(_greatest(a), _greatest(b))
     if not gaps.any() and abs(most) <= _SAME * size:
+        if old.unit != new.unit:
+            yield Change("number", name, said[0], said[1], "the same in another unit")
         return
     if not gaps.any() and size <= _ZERO * sizes[dims] and abs(most) <= _AS_MUCH * rounding()[name]:
         return
