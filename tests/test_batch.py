@@ -369,3 +369,14 @@ table_2 = Table("2", "Two", (name, Column("error", "-", "", 1, np.array([2e-15, 
     assert batch.answer(str(sheet.path), arguments.load(Path(scene(tmp_path, "one", 'want = ["table_2"]\n')), ())) == 0
     printed = capsys.readouterr().out
     assert re.search(r"way +error\n.*\na +2\.0e-15\nb +2\.5e\+00", printed), printed
+
+
+def test_what_a_scene_among_others_wants_is_told_of_each(tmp_path, capsys):
+    """A wanted table, and how far numbers are proved: what the same scene alone prints."""
+    sheet = own(tmp_path, "")
+    lines = 'want = ["table_1"]\nproof = 9\n[inputs]\nF = '
+    batch.run(sheet.path, [scene(tmp_path, name, f"{lines}{F}") for name, F in (("a", 2), ("b", 3))])
+    out = capsys.readouterr().out
+    for name, first in (("a", "0.200"), ("b", "0.300")):
+        assert f"{name}: Table 1 - All\n" in out and re.search(rf"^{name}: {first}$", out, re.MULTILINE)
+        assert re.search(rf"^{name}: table 1 +5 +1\d\.\d +x$", out, re.MULTILINE)

@@ -111,9 +111,11 @@ def test_where_nothing_differs_the_exit_code_is_0(bolt, monkeypatch, capsys) -> 
         (("HEAD", "none.toml"), "scene none.toml cannot be read: No such file or directory"),
         (("HEAD", "v9"), "v9 is no .toml, no .xlsx and no revision of "),
         (("HEAD", "--output=x"), "compare takes a worksheet, two states and --markdown"),
+        (("HEAD", "long.toml"), "long.toml: "),
     ],
 )
 def test_what_is_no_state_is_one_line_and_exit_code_2(bolt, monkeypatch, capsys, options, message) -> None:
+    bolt.with_name("long.toml").write_text("[inputs]\nF = 1e70\n", encoding="utf-8")
     code, out, err = compared(bolt, monkeypatch, capsys, *options)
     assert (code, out) == (2, "") and err.startswith(f"error: {message}") and err.count("\n") == 1
 

@@ -111,9 +111,7 @@ def answer(worksheet: str, given: Scene) -> int:
     """Exit code of a script whose scene wants some results: prints them, writes a file only where ``out`` is given."""
     sheet = load(worksheet)
     outcome, _ = compute(sheet, "scene", given)
-    say(*outcome.readings, *outcome.quantities)
-    for table in outcome.tables:
-        say(f"Table {table.number} - {table.title}", *_text(_printed(table)))
+    say(*outcome.readings, *outcome.quantities, *_told(outcome.tables))
     say(*(check for check in outcome.checks if check.passed), *outcome.proof, *outcome.bands, *outcome.problems)
     if given.out:
         report.write(comparison(sheet, [outcome]), given.out / _summary(sheet))
@@ -159,9 +157,9 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
 
     It is 0 where all pass, 2 where what is given of any cannot be used, else 1.
 
-    Prints a table of the scenes. Into ``out`` go a workbook of all of them side by side, and one of each scene that
-    wants the whole worksheet; without it nothing is written. Arguments replace inputs of every scene. ``jobs`` are
-    processes that compute scenes at the same time.
+    Prints a table of the scenes, and what each tells alone. Into ``out`` go a workbook of all of them side by side, and
+    one of each scene that wants the whole worksheet; without it nothing is written. Arguments replace inputs of every
+    scene. ``jobs`` are processes that compute scenes at the same time.
 
     Raises SheetError where the worksheet cannot be used, UsageError for arguments, and for two scenes of one name.
     """
@@ -189,7 +187,8 @@ def run(worksheet: str, arguments: Sequence[str]) -> int:
     for block in _blocks(_table(sheet, outcomes), shutil.get_terminal_size((120, 24)).columns):
         say(*_text(block), "")
     for outcome in outcomes:
-        say(*(f"{outcome.name}: {text}" for text in (*outcome.readings, *outcome.bands, *outcome.problems)))
+        told = *outcome.readings, *_told(outcome.tables), *outcome.proof, *outcome.bands, *outcome.problems
+        say(*(f"{outcome.name}: {text}" for text in told))
     failed = sum(o.verdict != "pass" for o in outcomes)
     say(f"{len(outcomes) - failed} of {len(outcomes)} scenes pass" + (f", written to {out}" if out else ""))
     return MISUSED if any(o.misused for o in outcomes) else 1 if failed else 0
@@ -363,6 +362,13 @@ def _blocks(rows: Sequence[Sequence[str]], width: int) -> Iterator[list[Sequence
             block, size = [first], max(map(len, first))
         block, size = [*block, column], size + wide
     yield list(zip(*block, strict=True))
+
+
+def _told(tables: Iterable[Table]) -> Iterator[str]:
+    """Lines of wanted tables."""
+    for table in tables:
+        yield f"Table {table.number} - {table.title}"
+        yield from _text(_printed(table))
 
 
 def _printed(table: Table) -> list[list[str]]:

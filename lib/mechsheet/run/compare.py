@@ -95,8 +95,16 @@ def _compared(worksheet: Path, options: Sequence[str]) -> list[Change]:
 def state(worksheet: Path, name: str, folders: ExitStack) -> State:
     """The document in a state; what a revision needs is put in a folder that ends with ``folders``.
 
-    Raises SheetError where the state is neither a file nor a revision, or cannot be computed.
+    Raises SheetError where the state is neither a file nor a revision, or cannot be computed, with its name.
     """
+    try:
+        return _state(worksheet, name, folders)
+    except Exception as error:  # of the worksheet's own lines
+        told = str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+        raise SheetError(told if name in told else f"{name}: {told}") from None
+
+
+def _state(worksheet: Path, name: str, folders: ExitStack) -> State:
     if Path(name).suffix.lower() in (".toml", ".xlsx"):
         sheet = load(worksheet)
         return _of(sheet, arguments.load(Path(name), inputs.declared(sheet.inputs)))
