@@ -380,3 +380,9 @@ def test_what_a_scene_among_others_wants_is_told_of_each(tmp_path, capsys):
     for name, first in (("a", "0.200"), ("b", "0.300")):
         assert f"{name}: Table 1 - All\n" in out and re.search(rf"^{name}: {first}$", out, re.MULTILINE)
         assert re.search(rf"^{name}: table 1 +5 +1\d\.\d +x$", out, re.MULTILINE)
+
+
+def test_a_scene_is_judged_by_the_units_of_its_lines_as_a_run_is(tmp_path, capsys):
+    sheet = own(tmp_path, "L = 2 * g.F  # [m] length of a number")
+    assert batch.run(sheet.path, [scene(tmp_path, "one", "[inputs]\nF = 2")]) == 1
+    assert "one: FAIL  units: 1 <= 0 mistakes" in capsys.readouterr().out

@@ -97,6 +97,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
         elif base(want).isidentifier() and not _is_check(what):
             with usage():
                 quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
+    if not given.want:
+        judged.append(report.units_of(names, sheet))
     told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
     if given.proof:
         wanted = [*given.want, *given.limits]

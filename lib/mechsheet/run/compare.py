@@ -100,7 +100,7 @@ def state(worksheet: Path, name: str, folders: ExitStack) -> State:
     try:
         return _state(worksheet, name, folders)
     except Exception as error:  # of the worksheet's own lines
-        told = str(error) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
+        told = str(error) if isinstance(error, SheetError) else mistakes.told(error, str(worksheet))
         raise SheetError(told if name in told else f"{name}: {told}") from None
 
 
