@@ -180,3 +180,34 @@ def test_a_scene_keeps_units_and_columns(tmp_path: Path) -> None:
     held = 'want = ["m", "s"]\n[inputs]\nF = "3 m"  # m, of m\n[limits]\nm = {max = 3}\n'
     now = 'want = ["m_1", "s"]\n[inputs]\nF = "3 m"  # m, of m_1\n[limits]\nm_1 = {max = 3}\n'
     assert renamed(path, "m", "m_1", {scene: held})[scene] == now
+
+
+def test_an_input_called_as_all_of_them_are_is_renamed_alone(tmp_path: Path) -> None:
+    path = Path(own(tmp_path, 'W = g.F * g.g  # [-] weight of g, in g.g\nt = f"{g.F} times {g.g}"').path)
+    more = "    g: float = 9.81  # [-] gravity\n    a: float"
+    path.write_text(path.read_text(encoding="utf-8").replace("    a: float", more), encoding="utf-8")
+    made = renamed(path, "g", "g_n", {})[path]
+    assert "W = g.F * g.g_n  # [-] weight of g, in g.g_n" in made and 't = f"{g.F} times {g.g_n}"' in made
+    path.write_text(made, encoding="utf-8")
+    assert evaluate(path, ["W"], g_n=10.0, F=3.0)["W"] == 30.0
+
+
+METHODS = """
+import mechsheet as ms
+from scipy.integrate import quad
+class Beam:
+    def __init__(self, l): self.l = l
+    def M(self, x): return x * (self.l - x)
+M = Beam(g.F).M(1.0)  # [-] moment
+both = ms.find(lambda M_1, c: (M_1 + c - 3, M_1 - c), M_1=1.0, c=1.0)
+M_1 = both.value.M_1 + quad(lambda x: x, 0, M)[0]  # [-] one"""
+
+
+def test_methods_keep_their_names_and_unknowns_of_a_module_follow(tmp_path: Path) -> None:
+    path = Path(own(tmp_path, METHODS).path)
+    before = evaluate(path, ["M", "M_1"])
+    path.write_text(renamed(path, "M", "M_b", {})[path], encoding="utf-8")
+    path.write_text(renamed(path, "M_1", "u", {})[path], encoding="utf-8")
+    assert [*evaluate(path, ["M_b", "u"]).values()] == [*before.values()]
+    with pytest.raises(SheetError, match=r"^quad is imported, and no symbol of own\.py$"):
+        renamed(path, "quad", "integral", {})

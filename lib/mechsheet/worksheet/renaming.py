@@ -19,6 +19,7 @@ from mechsheet.worksheet.errors import SheetError, as_given, nearest
 from mechsheet.worksheet.scene import is_of
 from mechsheet.worksheet.source import functions
 
+_ALL = "g"  # all inputs; one of them may be called so too, as that of gravity
 _WORDS = {"a", "A", "I"}  # of English too
 _FIRST, _LAST = r"(?<![\w.])(?<!_\{)", r"(?!\w)"  # an index of another symbol, as of φ_{P6}, stays
 
@@ -44,6 +45,8 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     if new.startswith("_"):
         raise SheetError(f"{new} begins with _: such a name stays within its cell")
     text = path.read_text(encoding="utf-8")
+    if old not in declared and old in _imported(ast.parse(text)):
+        raise SheetError(f"{old} is imported, and no symbol of {path.name}")
     for token in _tokens(text):
         if token.type == tokenize.NAME and token.string == new:
             line = text.count("\n", 0, token.start) + 1
@@ -64,7 +67,8 @@ def _in_worksheet(text: str, old: str, new: str, inputs_class: str) -> str:
     before, places = ["", ""], list[tuple[int, int, str]]()
     for token in _tokens(text):
         if token.type == tokenize.NAME and token.string == old and not found.keeps(token.start):
-            if before[1] != "." or (before[0] == "g" and inputs_class) or before[0] == "value":
+            follows = before[1] != "." or (before[0] == "g" and inputs_class) or before[0] == "value"
+            if follows and (old != _ALL or before == [_ALL, "."] or found.declares(token.start)):
                 places.append((token.start, token.end, new))
         elif token.type in (tokenize.COMMENT, tokenize.STRING) and not found.keeps(token.start):
             within = {place - token.start for place in found.arguments}
@@ -84,28 +88,40 @@ class _Others:
         self.arguments, self.spans = set[int](), list[tuple[int, int]]()
         own = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)}
         own -= {cell.name for cell in functions(tree)}
-        imported = dict[str, Any]()
+        imported, self.inputs = _imported(tree), range(0)
         for node in ast.walk(tree):
             match node:
                 case ast.Assign([ast.Name(function)], ast.Lambda()):
                     own.add(function)
-                case ast.ImportFrom(str(module), names):
-                    there = sys.modules.get(module)
-                    imported |= {each.asname or each.name: getattr(there, each.name, None) for each in names}
-                case ast.ClassDef(of) if of != inputs_class and _has_field(node, name):
+                case ast.ClassDef(of) if of == inputs_class:
+                    self.inputs = range(*self._span(node))
+                case ast.ClassDef(of) if _has_field(node, name):
                     own.discard(of)
-                    self.spans.append((self._at(node.lineno, 0), self.starts[node.end_lineno or node.lineno]))
+                    self.spans.append(self._span(node))
         for node in ast.walk(tree):
             if isinstance(node, ast.Call):
-                function = node.func.id if isinstance(node.func, ast.Name) else ""
+                match node.func:
+                    case ast.Name(function):
+                        called = imported.get(function)
+                    case ast.Attribute(ast.Name(module), function):
+                        called = getattr(imported.get(module), function, None)
+                    case _:
+                        function, called = "", None
                 if function not in own:
-                    self._add_units(node, imported.get(function))
-                    if not _takes_any(imported.get(function), name):
+                    self._add_units(node, called)
+                    if not _takes_any(called, name):
                         self._add_arguments(node)
 
     def keeps(self, place: int) -> bool:
         """Whether what stands at a place keeps its name."""
         return place in self.arguments or any(start <= place < end for start, end in self.spans)
+
+    def declares(self, place: int) -> bool:
+        """Whether a place is in the class of the inputs."""
+        return place in self.inputs
+
+    def _span(self, node: ast.ClassDef) -> tuple[int, int]:
+        return self._at(node.lineno, 0), self.starts[node.end_lineno or node.lineno]
 
     def _add_arguments(self, call: ast.Call) -> None:
         """An argument of a function that is none of the worksheet's own, as in ``diff(x, n=2)``.
@@ -131,9 +147,25 @@ class _Others:
 _UNITS = ("unit", "unknown_unit")
 
 
+def _imported(tree: ast.AST) -> dict[str, Any]:
+    """What is imported, by the names that it has in the worksheet; none of what is not loaded."""
+    found = dict[str, Any]()
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(str(module), names):
+                there = sys.modules.get(module)
+                found |= {each.asname or each.name: getattr(there, each.name, None) for each in names}
+            case ast.Import(names):
+                first = ((each.asname or each.name.split(".")[0], each) for each in names)
+                found |= {name: sys.modules.get(each.name if each.asname else name) for name, each in first}
+    return found
+
+
 def _has_field(node: ast.ClassDef, name: str) -> bool:
-    """Whether a class declares a field of that name: a column of rows, or a property of options."""
-    return any(isinstance(line, ast.AnnAssign) and ast.unparse(line.target) == name for line in node.body)
+    """Whether a class has an attribute of that name: a column of rows, a property of options, a method."""
+    fields = (line.target for line in node.body if isinstance(line, ast.AnnAssign))
+    methods = (line.name for line in node.body if isinstance(line, ast.FunctionDef))
+    return name in {*map(ast.unparse, fields), *methods}
 
 
 def _parameters(function: Any) -> list[str]:
@@ -157,7 +189,8 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
 
     Of a name that a unit has too those in brackets and behind numbers are units, and a text that is one.
     """
-    symbol, is_unit = rf"(?:{_FIRST}|(?<=\bg\.)){re.escape(old)}{_LAST}", units.known(old)
+    first = rf"(?<=\b{_ALL}\.)" if old == _ALL else rf"(?:{_FIRST}|(?<=\b{_ALL}\.))"
+    symbol, is_unit = rf"{first}{re.escape(old)}{_LAST}", units.known(old)
     if is_unit and text.strip("\"'") != old and units.known(text.strip("\"'")):
         return text
     in_units = [found.span() for found in re.finditer(rf"{_IN_BRACKETS}|{_BEHIND_A_NUMBER}", text) if is_unit]
