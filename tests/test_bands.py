@@ -392,6 +392,27 @@ def test_what_bends_to_where_a_line_goes_another_way_jumps(tmp_path):
         assert told.startswith("it jumps or bends: 0.25..2.5 in") == jumps and (told == "") != jumps
 
 
+BENDING = """
+check_2 = check("just so", g.F**2, 11.4)
+check_3 = check("mostly", g.F**2, 10.0)
+check_4 = check("from below", g.F**2, at_least=2.2)
+check_5 = check("never", 3 * g.F - g.F**2 / 4, 5.9)
+check_6 = check("always", g.F**2, 12.3)"""
+
+
+def test_how_sure_a_check_is_where_it_bends_is_told_by_cases(tmp_path):
+    """By its slope the square of 2.5 ± 1 is 1.25..11.25, and in truth 2.25..12.25."""
+    found, _ = bands(off(tmp_path, 9, "± 1", "", BENDING))
+    for name, part in {"just so": (11.4**0.5 - 1.5) / 2, "mostly": (10**0.5 - 1.5) / 2}.items():
+        told = re.fullmatch(r"in (\S+) % of cases, fails at worst \(it bends\)", found.sure[name])
+        assert told and float(told[1]) / 100 == pytest.approx(part, abs=0.04), name
+    assert found.sure["from below"] == "in all of 1000 random cases (it bends)"
+    assert found.sure["always"] == "in all the tolerances"
+    share = (3.5 - (6 - np.sqrt(36 - 4 * 5.9))) / 2
+    told = re.fullmatch(r"holds in (\S+) % of cases(?: \(it bends\))?", found.sure["never"])
+    assert float(told[1]) / 100 == pytest.approx(1 - share, abs=0.04)
+
+
 def test_all_ends_of_few_tolerances_are_looked_at(tmp_path):
     """What has a value at seven of eight ends."""
     sheet = off(tmp_path, 9, "± 1", "± 0.5", "\nz = np.sqrt(1.8 - g.F + g.a + g.b)  # [-] none for some")

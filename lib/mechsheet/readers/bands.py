@@ -7,7 +7,7 @@ some corners of the tolerances show that the slopes mislead, cases do. At a corn
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
 _CORNERS = 8  # at so many ends of all tolerances, and opposite to these, it is looked whether slopes mislead
-_LITTLE = 0.1  # of how far a check moves: a reserve that is less may be another one by what bends a little
+_LITTLE = 0.05  # of how far a check moves: what bends by less hardly changes in how many cases it holds
 _CRITICAL = 100  # elements of a check that are judged at a time
 BENDS, ENDS = "it bends", "it ends within the tolerances"  # what slopes do not tell
 _EPS = float(np.finfo(float).eps)
@@ -172,12 +172,16 @@ class Bands:
         """What quantities are at some ends of the tolerances; best of all at once, for they share what they rest on."""
         new = [node for node in dict.fromkeys(nodes) if node not in self.there[0]]
         for place, there in zip(self.places, self.there, strict=True):
-            at = {x: t.value + part * t.size for x, t, part in zip(self.inputs, self.by, place.tolist(), strict=True)}
-            try:
-                found = recomputed(new, at)
-            except OF_NUMBERS:  # as of a Find that has no interval there
-                found = {node: np.full(node.shape, np.nan) for node in new}
-            there |= {node: found[node] for node in new}
+            there |= self._there(new, place)
+
+    def _there(self, nodes: Sequence[Node], place: Values) -> dict[Node, Values]:
+        """What quantities are at an end of the tolerances."""
+        at = {x: t.value + part * t.size for x, t, part in zip(self.inputs, self.by, place.tolist(), strict=True)}
+        try:
+            found = recomputed(nodes, at)
+        except OF_NUMBERS:  # as of a Find that has no interval there
+            return {node: np.full(node.shape, np.nan) for node in nodes}
+        return {node: found[node] for node in nodes}
 
     def misled(self, node: Node, guards: Sequence[Node] = ()) -> str:
         """Why the slopes of a quantity with a band tell nothing of it, as where it is at its least; else nothing.
@@ -214,34 +218,43 @@ class Bands:
             return f"how sure is not known: {why}"
         if all(_is_step(part) for part, _ in parts):
             return self._at_ends(residual, passed)
-        spread, limit = list[Values](), residual.limit.value
-        most = -1.0 if residual.at_least else 1.0
-        for part, signed in parts:
-            for sign in (1.0,) if signed else (1.0, -1.0):
-                reserve = np.asarray(most * (limit - sign * part.value)).reshape(1, -1)
-                moves = most * (_flat(bands[residual.limit].moves) - sign * _flat(bands[part].moves)) + 0.0 * reserve
-                spread.append(np.concatenate([reserve, moves]))
-        reserves = np.concatenate(spread, axis=1)
-        if self._misleads(residual, reserves):
+        own = _reserves(residual, {node: node.value for node in compared})
+        moves = [_reserves(residual, {node: bands[node].moves[k] for node in compared}) for k in range(len(self.by))]
+        reserves = np.stack([own, *(x + 0.0 * own for x in moves)])
+        if self._misleads(residual, reserves, passed):
             return f"{self.cases.sure(name, passed)} ({BENDS})"
         return self._by_reserves(reserves, passed)
 
-    def _misleads(self, residual: Residual, reserves: Values) -> bool:
-        """Whether a check holds at some end of the tolerances where the slopes say that it fails, or fails there."""
-        self.look([*residual.parts, residual.limit])
-        little = _LITTLE * np.abs(reserves[1:]).sum(0)
-        for place, there in zip(self.places, self.there, strict=True):
-            holds = residual.holds(there)
-            said = reserves[0] + place @ reserves[1:]
-            if np.any(said < -little) if holds else np.all(said > little):
+    def _misleads(self, residual: Residual, reserves: Values, passed: bool) -> bool:
+        """Whether a check has another verdict at some end of the tolerances where slopes say that it has one in all.
+
+        Where they say in how many cases it holds, whether its least reserve at an end is another one than by them.
+        """
+        nodes = [*self.compared(residual), *residual.parts]
+        self.look(nodes)
+        most, rounding = np.abs(reserves[1:]).sum(0), _ROUNDING * float(np.max(np.abs(reserves[0]), initial=0.0))
+        k = int(np.argmin(reserves[0] - most))
+        worst = np.sign(reserves[1:, k])
+        ends = ((place, self._there(nodes, place)) for place in (-worst, worst))
+        for place, there in chain(zip(self.places, self.there, strict=True), ends):
+            least = np.min(_reserves(residual, there))
+            if self._is_sure(reserves):
+                if not least >= -rounding if passed else least > rounding:
+                    return True
+            elif not abs(least - np.min(reserves[0] + place @ reserves[1:])) <= _LITTLE * most[k] + rounding:
                 return True
         return False
 
+    def _is_sure(self, reserves: Values) -> bool:
+        """Whether a check has its verdict in all the tolerances, by the slopes."""
+        most = np.abs(reserves[1:]).sum(0)
+        return bool(np.all(reserves[0] >= most) or np.any(reserves[0] < -most))
+
     def _by_reserves(self, reserves: Values, passed: bool) -> str:
         """By the reserve of each element, in the first row, and how each input moves it."""
-        most = np.abs(reserves[1:]).sum(0)
-        if np.all(reserves[0] >= most) or np.any(reserves[0] < -most):
+        if self._is_sure(reserves):
             return "in all the tolerances"
+        most = np.abs(reserves[1:]).sum(0)
         return in_cases(self._share(reserves[:, reserves[0] < most]), passed)
 
     def _share(self, reserves: Values) -> float:
@@ -274,8 +287,11 @@ def _places(count: int) -> Values:
     return np.unique(np.concatenate([corners, -corners]), axis=0)
 
 
-def _flat(moves: Values) -> Values:
-    return moves.reshape(len(moves), -1)
+def _reserves(residual: Residual, there: Mapping[Node, Values]) -> Values:
+    """What a check has left of its limit, by the numbers of what it compares, or by how these move."""
+    most, limit = -1.0 if residual.at_least else 1.0, there[residual.limit]
+    both = [(part, sign) for part, signed in _judged(residual) for sign in ((1.0,) if signed else (1.0, -1.0))]
+    return np.concatenate([np.reshape(most * (limit - sign * there[part]), -1) for part, sign in both])
 
 
 def _judged(residual: Residual) -> list[tuple[Node, bool]]:
