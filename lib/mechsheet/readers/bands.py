@@ -268,14 +268,16 @@ class Bands:
         return float(holds.mean())
 
     def _at_ends(self, residual: Residual, passed: bool) -> str:
-        """Of a check that holds or not, such as that a group closes: at both ends of each input."""
+        """Of a check that holds or not, such as that a group closes: at both ends of each input, and of all of them."""
+        nodes, word = [*residual.parts, residual.limit], "fails" if passed else "holds"
         for node, t in zip(self.inputs, self.by, strict=True):
             for end in (t.value - t.size, t.value + t.size):
-                there = recomputed([*residual.parts, residual.limit], {node: end})
-                if residual.holds(there) != passed:
-                    word = "fails" if passed else "holds"
+                if residual.holds(recomputed(nodes, {node: end})) != passed:
                     f = t.field
                     return f"{word} for {f.name} = {numbers.significant(f.display(end), 6)}{numbers.suffix(f.unit)}"
+        self.look(nodes)
+        if any(residual.holds(there) != passed for there in self.there):
+            return f"{word} where several are at their ends"
         return "at both ends of each tolerance"
 
 
