@@ -138,7 +138,8 @@ def run_bands(
     jumping = bands.jumps(node for nodes in seen for node in nodes)
     for k, nodes in enumerate(seen):
         if jump := next((jumping[node] for node in nodes if node in jumping), None):
-            banded[k] = banded[k].told_by(bands.cases, "", f" ({bands.turns(jump)})")
+            lost = banded[k].band.lost
+            banded[k] = banded[k].told_by(bands.cases, lost, "" if lost else f" ({bands.turns(jump)})")
     bands.look(node for nodes in seen for node in nodes)
     for k, (node, *guards) in enumerate(seen):
         if not banded[k].band.why and (how := bands.misled(node, guards)):
@@ -151,7 +152,8 @@ def run_bands(
 def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[str]) -> Iterator[_Shown]:
     for name, line in known.items():
         value = recording.values.get(name)
-        if line.has_value and recording.looked.get(name) and isinstance(value, int | float):
+        chosen = line.has_value and recording.looked.get(name) and not isinstance(value, Quantity)
+        if chosen and np.asarray(value).dtype.kind in "biuf":
             value = lift(recording.graph, value)  # a number that Python chose
         if not line.has_value or not isinstance(value, Quantity):
             continue

@@ -18,7 +18,7 @@ from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import Values
 from mechsheet.readers.beside import beside
-from mechsheet.readers.cases import Cases, in_cases
+from mechsheet.readers.cases import JUMPS, Cases, in_cases
 from mechsheet.readers.jumps import MISLED, Jump, jumps
 from mechsheet.readers.numbers import numbers as recomputed
 from mechsheet.readers.slopes import seen, slopes, unfollowed
@@ -93,6 +93,11 @@ class Band:
         return Band(np.full(self.moves.shape, np.nan), np.full(self.moves.shape, np.nan), why)
 
     @property
+    def lost(self) -> str:
+        """Why nothing is known where that is not that it jumps, of which cases tell."""
+        return "" if self.why.startswith(JUMPS) else self.why
+
+    @property
     def worst(self) -> Values:
         """Greatest deviation, where all inputs are at their worst."""
         return np.asarray(np.abs(self.moves).sum(0))
@@ -142,7 +147,7 @@ class Bands:
         steeper = np.where(np.isnan(behind) | (np.abs(ahead) < np.abs(behind)), behind, ahead)
         if np.isnan(steeper[:, np.isfinite(node.value)]).any():
             lost = seen([node], self.inputs)
-            jumps = f"it jumps or ends there by {self._jumping(steeper)}"
+            jumps = f"{JUMPS} or ends there by {self._jumping(steeper)}"
             return self._none(node, untold(lost, self.recording.gaps) if lost else jumps)
         sizes, sigmas = (
             np.reshape(x, (-1, *[1] * len(node.shape)))

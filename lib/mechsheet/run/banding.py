@@ -3,17 +3,20 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.banded import Banded, RunBands, about, off, run_bands
-from mechsheet.readers.bands import Band, Bands, Tolerance, tolerances
-from mechsheet.readers.cases import RESULTS, goes_on, is_outside
+from mechsheet.readers.bands import ENDS, Band, Bands, Tolerance, tolerances
+from mechsheet.readers.cases import RESULTS
+from mechsheet.readers.jumps import Jump
 from mechsheet.recording.record import record
 from mechsheet.run.within import cases
 from mechsheet.worksheet import numbers, shown
@@ -67,27 +70,29 @@ def lines(
     known = registry(namespace)
     run = cache(partial(cases, inputs_of(namespace), sheet, [*given.want, *given.limits], known, by))
     bands = Bands(recording, by, run)
-    nodes = {name: node for name in quantities if (node := part_of(name, recording.values))}
+    nodes = {name: node for name in quantities if (node := _node(name, recording))}
     yield f"within {', '.join(map(str, by.values()))}"
     if any(t.normal for t in by.values()):
         yield "of a normal tolerance 3 cases in 1000 lie beyond it, where no worst case and no guaranteed bound holds"
+    yield from (f"{name}: keeps still" for name in quantities if name not in nodes)
     gaps = {name: np.count_nonzero(np.isnan(node.value)) for name, node in nodes.items()}
     yield from (f"{x}: not known, there is none at {n} of {nodes[x].size} positions" for x, n in gaps.items() if n)
     nodes = {name: node for name, node in nodes.items() if not gaps[name]}
     if nodes:
         found = bands.of(nodes.values())
         sampled = _sampled(sheet, [*nodes], namespace["g"])
-        bounds = _bounds(nodes.values(), recording.inputs, by)
-        jumping = bands.jumps(nodes.values())
+        seen = {name: [guard.holds for guard in recording.looked.get(base(name), ())] for name in nodes}
+        bounds = _bounds(nodes, seen, recording.inputs, by)
+        jumping = bands.jumps(chain(nodes.values(), *seen.values()))
         for name, node in nodes.items():
-            band, factor = found[node], units.parse(known[base(name)].unit).factor
+            jump = next((jumping[x] for x in (node, *seen[name]) if x in jumping), None)
+            band = found[node]
             ends = sampled[name][name].least, sampled[name][name].greatest
-            if node in jumping or sampled[name].lost:
+            how = "" if band.why or jump else bands.misled(node, seen[name])
+            if jump or how or sampled[name].lost:
                 inside = bands.cases.spans.get((RESULTS, name)) or ends
                 ends = inside if sampled[name].lost else ends  # between what those lie that have a value
-                judged = node.value / factor, *inside, band.worst / factor
-                if node in jumping and is_outside(*judged):
-                    band = band.none(f"{goes_on(*judged)} ({bands.turns(jumping[node])})")
+                band = _told(band, name, node, known[base(name)], bands, jump, how)
             yield from _in_all_ways(name, node, known[base(name)], band, sampled[name], ends, bounds[node], by)
     for table in (value for name in given.want if isinstance(value := namespace.get(name), Table)):
         yield from _of_table(table, run_bands(recording, [table], (), {}, by, run).banded)
@@ -96,12 +101,30 @@ def lines(
             yield f"{check.name}: {check.verdict} {bands.sure(check.name, check.passed)}"
 
 
+def _told(band: Band, name: str, node: Node, line: Formula, bands: Bands, jump: Jump | None, how: str) -> Band:
+    """A band, or none with what the cases tell of a result that jumps, bends or ends within the tolerances."""
+    shown = Banded(RESULTS, name, line.unit, node.value / units.parse(line.unit).factor, band)
+    if band.lost or not (jump or how):
+        return band
+    if how == ENDS:
+        return band.none(how)
+    return shown.told_by(bands.cases, how, f" ({bands.turns(jump)})" if jump else "").band
+
+
 def _sampled(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:
     """Random cases of each result: of all at once, but where one has no value in some of them the others may."""
     draw = partial(shown.study("tolerance"), sheet.path, method="monte carlo", seed=1, count=_CASES, g=g)
     together = draw(names)
     alone = together.lost and len(names) > 1
     return {name: draw([name]) if alone else together for name in names}
+
+
+def _node(name: str, recording: Recording) -> Node | None:
+    """A result in a recording, be it a number that Python chose; none of what rests on nothing."""
+    value = recording.values.get(base(name))
+    if isinstance(value, Quantity) or not recording.looked.get(base(name)):
+        return part_of(name, recording.values)
+    return part_of(name, {base(name): lift(recording.graph, value)})
 
 
 def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
@@ -116,11 +139,18 @@ def part_of(name: str, values: Mapping[str, Any]) -> Node | None:
 
 
 def _bounds(
-    nodes: Iterable[Node], inputs: Mapping[str, Node], by: Mapping[str, Tolerance]
+    nodes: Mapping[str, Node],
+    seen: Mapping[str, Sequence[Node]],
+    inputs: Mapping[str, Node],
+    by: Mapping[str, Tolerance],
 ) -> dict[Node, tuple[Any, Any]]:
     from mechsheet.readers.enclosed import enclosed  # on use: only bounds need balls
 
-    return enclosed(nodes, {inputs[name]: tolerance.size for name, tolerance in by.items()})
+    within = {inputs[name]: tolerance.size for name, tolerance in by.items()}
+    resting = dict[Node, list[Node]]()
+    for name, node in nodes.items():
+        resting.setdefault(node, []).extend(seen[name])
+    return enclosed(resting, within, resting)
 
 
 def _in_all_ways(
