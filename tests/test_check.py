@@ -223,3 +223,8 @@ def test_limits_of_an_assembly_are_two():
 def test_what_a_check_cannot_take_is_named(given, told):
     with pytest.raises(SheetError, match=re.escape(told)):
         check(*given)
+
+
+def test_what_is_masked_has_not_been_checked():
+    masked = np.ma.masked_array([0.0, 5.0], mask=[False, True])
+    assert check("loops close", masked, 1.0).reason == "1 of 2 values do not exist"

@@ -731,3 +731,12 @@ def test_a_branch_that_is_not_one_of_the_branches_is_named(branch, branches):
 def test_the_module_starts_without_scipy_and_marimo():
     code = "import sys, mechsheet.worksheet.find; sys.exit(bool({'scipy', 'marimo', 'pandas'} & sys.modules.keys()))"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_what_is_masked_is_not_solved():
+    masked = np.ma.masked_array([4.0, 9.0, 16.0], mask=[False, True, False])
+    assert find(lambda x: x**2, 0.0, 10.0, equals=masked).value.tolist() == pytest.approx([2, np.nan, 4], nan_ok=True)
+    within = find(lambda x: x**2 - masked, 0.0, 10.0)  # once of its zeros, what stands under the mask
+    assert within.value.tolist() == pytest.approx([2, np.nan, 4], nan_ok=True)
+    both = find(lambda x, y: (x + y - masked, x - y), x=1.0, y=1.0)
+    assert both.value.x.tolist() == pytest.approx([2, np.nan, 8], nan_ok=True)

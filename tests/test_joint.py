@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from printed import agrees, half_last_digit, rows
 
 from mechsheet import units
-from mechsheet.mechanics.joint import circular_joint, neutral_axis
+from mechsheet.mechanics.joint import bending, circular_joint, neutral_axis
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check, refuse_open
 from mechsheet.worksheet.errors import SheetError
@@ -667,3 +667,15 @@ def test_script_writes_the_workbook(tmp_path):
     done = as_script(SHEET, "--SI=1", f"--out={tmp_path}")
     assert (done.returncode, done.stderr) == (0, "")
     assert [p.name for p in tmp_path.iterdir()] == ["joint.xlsx"]
+
+
+def test_a_wrong_area_is_named_whatever_the_shape_of_the_loads():
+    with pytest.raises(ValueError, match=r"^area in tension A_t = -1 m\^2 must not be negative$"):
+        neutral_axis([0, 1], [1, -1], [1, 1], np.ones(3), 0)
+    with pytest.raises(ValueError, match=r"^moment M = nan N m must be a finite number$"):
+        neutral_axis([0, 1], [1, 1], [1, 1], np.ma.masked_array(np.ones(3), [0, 1, 0]), 0)
+
+
+def test_levels_that_do_not_fit_the_areas_are_named():
+    with pytest.raises(ValueError, match=r"^shapes do not broadcast: y \(3,\), A \(2,\)$"):
+        bending([0, 1, 2], [1, 1], 1, 1)

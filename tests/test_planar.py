@@ -13,6 +13,7 @@ from mpmath import acos, mp, mpf, sqrt
 
 from mechsheet.accuracy import arithmetic as exact
 from mechsheet.accuracy.arithmetic import EPS
+from mechsheet.mechanics.joint import sum_of_elements
 from mechsheet.mechanics.planar import (
     angle,
     angle_between,
@@ -22,6 +23,7 @@ from mechsheet.mechanics.planar import (
     link_acceleration,
     link_point,
     link_velocity,
+    product,
     triangle_area,
 )
 
@@ -135,3 +137,35 @@ def test_motion_of_a_link_point_is_the_difference_of_its_positions(
     speed, size = abs(v_A) + abs(omega * arm), abs(arm) * (abs(epsilon) + omega**2)
     assert abs(link_velocity(arm, 0, omega, v_A) - complex(velocity)) <= 8 * EPS * speed + noise
     assert abs(link_acceleration(arm, 0, omega, epsilon) - complex(acceleration)) <= 8 * EPS * size + noise
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: cross(None, 1), "a = None must be numbers"),  # numpy takes it for NaN
+        (lambda: dot(1, "2"), "b = '2' must be numbers"),
+        (lambda: product(1j, 2, 3), "p = 1j must be real numbers"),
+        (lambda: angle("x"), "z = 'x' must be numbers"),
+        (lambda: triangle_area(3, 4, 5j), "side c = 5j must be real numbers"),
+        (lambda: sum_of_elements(3.0), "x = 3.0 must be a row of elements"),
+    ],
+)
+def test_what_is_no_number_is_named(call: Any, words: str) -> None:
+    with pytest.raises(ValueError, match=f"^{words}$"):
+        call()
+
+
+def test_what_is_masked_is_no_number() -> None:
+    masked = np.ma.masked_array([3, 4, 5], mask=[False, True, False])  # whole numbers, too
+    lost = [False, True, False]
+    for found in (cross(masked, 1j), angle(masked * 1j), triangle_area(masked, 4, 5), angle_opposite(masked, 4, 5)):
+        assert np.isnan(found).tolist() == lost
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_point_of_a_link_without_length_is_nan_and_warns_of_nothing() -> None:
+    assert np.isnan(link_point(1, 1, 3))
+
+
+def test_the_sum_of_no_elements_is_nothing() -> None:
+    assert sum_of_elements(np.zeros((2, 0))).tolist() == [0, 0]

@@ -38,6 +38,8 @@ def broadcasting(f: Callable[P, R]) -> Callable[P, R]:
         try:
             return f(*args, **kwargs)
         except ValueError as error:
+            if "broadcast" not in str(error):  # one that names its argument
+                raise
             raise shape_error(inspect.signature(f).bind(*args, **kwargs).arguments) or error from None
 
     return checked
@@ -100,6 +102,24 @@ def scalar_field(value: ArrayLike, name: str) -> Float:
     return _not_infinite(x, name)
 
 
+def vector(value: ArrayLike, name: str) -> Complex:
+    """Complex numbers of any size, infinite ones too."""
+    if type(value) in _COMPLEX:
+        return np.asarray(value, np.complex128)
+    if type(value) is np.ndarray and value.dtype.char == "D":
+        return value
+    return _numbers(value, name, "iufc").astype(np.complex128, copy=False)
+
+
+def reals(value: ArrayLike, name: str) -> Float:
+    """Real numbers of any size, infinite ones too."""
+    if type(value) in _REAL:
+        return np.asarray(value, np.float64)
+    if type(value) is np.ndarray and value.dtype.char == "d":
+        return value
+    return _numbers(value, name, "iuf").astype(np.float64, copy=False)
+
+
 def direction(value: ArrayLike, name: str) -> tuple[Complex, Float]:
     """Directions as given, and their lengths, which may be any but zero."""
     z = field(value, name)
@@ -136,9 +156,18 @@ def _not_infinite(x: Numbers, name: str) -> Numbers:
     return x
 
 
+def unmasked(value: ArrayLike, kind: type | None = None) -> NDArray[Any]:
+    """The array of a value: NaN where it is masked, for what stands under a mask is no number of anything."""
+    x: NDArray[Any] = np.asarray(value, kind)
+    if x is value or not isinstance(value, np.ndarray) or x.dtype.kind not in "iufc":
+        return x
+    masked = getattr(value, "mask", None)  # numpy loads its masked arrays where they are asked for by name
+    return x if masked is None else np.where(masked, np.nan, x)
+
+
 def _numbers(value: ArrayLike, name: str, kinds: str) -> NDArray[Any]:
     try:
-        x = np.asarray(value)
+        x = unmasked(value)
     except ValueError:  # rows of different length
         raise ValueError(f"{name} must be an array with rows of equal length") from None
     if x.dtype.kind not in kinds:

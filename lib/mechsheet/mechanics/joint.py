@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import Float, elementwise, not_negative, parameter
+from mechsheet.mechanics.arguments import Float, elementwise, not_negative, parameter, reals
 
 __all__ = ["Bending", "Ring", "Section", "bending", "circular_joint", "neutral_axis", "sum_of_elements"]
 
@@ -97,7 +97,7 @@ def bending(y: ArrayLike, A: ArrayLike, M: ArrayLike, N: ArrayLike) -> Bending:
     return Bending(sigma / unit_A[..., None], *section)
 
 
-def sum_of_elements(x: Float) -> Float:
+def sum_of_elements(x: ArrayLike) -> Float:
     """Sum over the elements, the last axis, as if computed with twice the digits; shape (...).
 
     Nothing is left over where the terms of a symmetrical section cancel: its centroid is on its axis.
@@ -107,9 +107,11 @@ def sum_of_elements(x: Float) -> Float:
     >>> sum_of_elements([0.1, 0.2, 0.3, -0.1, -0.2, -0.3])
     np.float64(0.0)
     """
-    x = np.asarray(x, np.float64)
-    s, lost = x[..., 0], 0.0
-    for term in np.moveaxis(x[..., 1:], -1, 0):
+    x = reals(x, "x")
+    if not x.ndim:
+        raise ValueError(f"x = {x} must be a row of elements")
+    s, lost = np.zeros(x.shape[:-1]), 0.0
+    for term in np.moveaxis(x, -1, 0):
         before, s = s, s + term
         part = s - before
         lost = lost + ((before - (s - part)) + (term - part))

@@ -3,7 +3,17 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import Complex, Float, broadcasting, elementwise, field, refusal, scalar_field
+from mechsheet.mechanics.arguments import (
+    Complex,
+    Float,
+    broadcasting,
+    elementwise,
+    field,
+    reals,
+    refusal,
+    scalar_field,
+    vector,
+)
 
 __all__ = [
     "Complex",
@@ -30,7 +40,7 @@ def cross(a: ArrayLike, b: ArrayLike) -> Float:
     >>> cross(1, 2j)
     np.float64(2.0)
     """
-    p, q = np.asarray(a, np.complex128), np.asarray(b, np.complex128)
+    p, q = vector(a, "a"), vector(b, "b")
     return p.real * q.imag - p.imag * q.real
 
 
@@ -41,7 +51,7 @@ def dot(a: ArrayLike, b: ArrayLike) -> Float:
     >>> dot(3 + 1j, 2)
     np.float64(6.0)
     """
-    p, q = np.asarray(a, np.complex128), np.asarray(b, np.complex128)
+    p, q = vector(a, "a"), vector(b, "b")
     return p.real * q.real + p.imag * q.imag
 
 
@@ -55,7 +65,7 @@ def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
     >>> product(1, 2, 3 + 1j)
     np.complex128(1+7j)
     """
-    p, q, z = np.asarray(p, np.float64), np.asarray(q, np.float64), np.asarray(z, np.complex128)
+    p, q, z = reals(p, "p"), reals(q, "q"), vector(z, "z")
     real = p * z.real - q * z.imag
     found = np.empty(real.shape, np.complex128)
     found.real = real
@@ -69,7 +79,7 @@ def angle(z: ArrayLike) -> Float:
     >>> angle([1j, -1])
     array([1.57079633, 3.14159265])
     """
-    z = np.asarray(z, np.complex128)
+    z = vector(z, "z")
     return np.arctan2(z.imag + 0.0, z.real + 0.0)  # + 0.0: the angle of -1 - 0.0j would be -pi
 
 
@@ -153,7 +163,7 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     >>> triangle_area(3, 4, [5, 7, 8])
     array([ 6.,  0., nan])
     """
-    p, q, r = np.asarray(a, np.float64), np.asarray(b, np.float64), np.asarray(c, np.float64)
+    p, q, r = reals(a, "side a"), reals(b, "side b"), reals(c, "side c")
     x, y = np.maximum(p, q), np.minimum(p, q)
     x, z = np.maximum(x, r), np.minimum(x, r)
     y, z = np.maximum(y, z), np.minimum(y, z)
@@ -165,7 +175,7 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     return area
 
 
-@broadcasting
+@elementwise
 def link_point(A: ArrayLike, B: ArrayLike, z: ArrayLike) -> Complex:
     """Point of the link AB with the link's own coordinates z: origin in A, real axis towards B.
 

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.brackets import (
     EPS,
     Array,
@@ -51,7 +52,7 @@ _ROUNDING = 2.0**-16  # of the range of f: what steps by more is not rounded
 def real_values(f: Function, x: Array) -> Array:
     """f(x) as floats, NaN where not finite; probing out of reach is no reason for numpy's warnings."""
     with np.errstate(all="ignore"):
-        y = np.asarray(f(x))
+        y = unmasked(f(x))
     if y.dtype.kind not in "fiu":
         raise TypeError(f"the function to solve must return real numbers, not {y.dtype}")
     infinite = np.isinf(y)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.brackets import Array
 
 Parts = Callable[[Array], Sequence[NDArray[Any]]]  # of unknowns, shape (n, ...), each part of the shape behind n
@@ -41,7 +42,7 @@ def one_by_one(f: Parts, shape: tuple[int, ...]) -> Parts:
 
 def of_one(f: Callable[[Array], Any]) -> Parts:
     """A function of one unknown as one of several."""
-    return lambda x: (np.asarray(f(x[0])),)
+    return lambda x: (unmasked(f(x[0])),)
 
 
 def each_alone(f: Callable[[Array], Any], shape: tuple[int, ...]) -> Callable[[Array], NDArray[Any]]:

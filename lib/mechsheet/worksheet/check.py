@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.equilibrium import Reaction, left_over
 from mechsheet.mechanics.load import Load
@@ -233,16 +234,17 @@ def judged(
     """Check of a residual, of two computations of a quantity of that size; all in SI. Whether its limit ``tells``."""
     of = f"check {name if isinstance(name, str) else as_given(name)}"
     texts(of, name=name, unit=unit)
-    if np.asarray(residual).dtype.kind == "b" or isinstance(limit, bool | np.bool_):
+    residuals = unmasked(residual)
+    if residuals.dtype.kind == "b" or isinstance(limit, bool | np.bool_):
         told = "a condition, which is no number: give a quantity and its limit, or at_least="
         refuse(SheetError(f"{of}: its {'limit' if isinstance(limit, bool | np.bool_) else 'residual'} is {told}"))
-    if np.asarray(residual).dtype.kind not in "iufc":
+    if residuals.dtype.kind not in "iufc":
         refuse(SheetError(f"{of}: its residual must be numbers, not {as_given(residual)}"))
     if np.ndim(limit) or np.asarray(limit).dtype.kind not in "biuf":
         refuse(SheetError(f"{of}: its limit must be one number, not {as_given(limit)}"))
     if at_least and np.iscomplexobj(residual):
         refuse(SheetError(f"{of}: it has a complex number, of which none is the least"))
-    sizes, factor = np.asarray(residual) if at_least else np.abs(residual), measured(unit, of).factor
+    sizes, factor = residuals if at_least else np.abs(residuals), measured(unit, of).factor
     reason, lost = "", int(np.count_nonzero(np.isnan(sizes)))
     if not sizes.size:
         reason = "there is nothing to check"

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
@@ -140,7 +141,7 @@ def _values(f: Callable[..., Any], names: tuple[str, ...]) -> Parts:
 def _parts(values: Any) -> list[NDArray[Any]]:
     """The equations as f gives them: several, or one."""
     several = list(values) if isinstance(values, tuple | list) else [values]
-    parts = [np.asarray(v) for v in several]
+    parts = [unmasked(v) for v in several]
     for part in parts:
         if part.dtype.kind not in "fciu":
             raise TypeError(f"each equation must be a number, left side less right side, not {part.dtype}")
@@ -151,7 +152,7 @@ def _targets(equals: Any, count: int) -> list[NDArray[Any]]:
     several = list(equals) if isinstance(equals, tuple | list) else [equals] * count
     if len(several) != count:
         raise SheetError(f"equals has {len(several)} values for {count} equations")
-    return [np.asarray(v) for v in several]
+    return [unmasked(v) for v in several]
 
 
 def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
@@ -167,7 +168,7 @@ def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
 def _place(name: str, value: Start, unit: str) -> Place:
     """Where an unknown is looked for: around a guess, or in an interval."""
     interval, factor = isinstance(value, tuple), units.parse(unit).factor
-    ends = [np.asarray(v, dtype=float) for v in (value if isinstance(value, tuple) else (value,))]
+    ends = [unmasked(v, float) for v in (value if isinstance(value, tuple) else (value,))]
     if interval and len(ends) != 2:
         raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
     for end in ends:

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
@@ -389,7 +390,7 @@ def _nothing(words: _Words, branch: Any, shape: tuple[int, ...]) -> Found:
 
 def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     """The numbers that are given, as arrays; SheetError for the first that cannot be used."""
-    given = {name: np.asarray(v, dtype=float) for name, v in values.items() if v is not None}
+    given = {name: unmasked(v, float) for name, v in values.items() if v is not None}
     for name, v in given.items():
         if (bad := np.isinf(v)).any():
             unit = words.unit if name == "equals" else words.unknown_unit

@@ -14,6 +14,7 @@ from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_ori
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.units import parse
 from mechsheet.worksheet import alone, deviation, errors, limits, lines, source
 from mechsheet.worksheet.errors import SheetError, refuse
@@ -332,7 +333,7 @@ def instance(cls: type[T], si: Mapping[str, Any]) -> T:
 def _column(field: Input, given: ArrayLike) -> tuple[NDArray[Any], NDArray[np.object_]]:
     """What is given of an input, in its display unit, and the reason for each that cannot be used."""
     try:
-        column = each(given) if isinstance(field, Rows) else np.asarray(given)
+        column = each(given) if isinstance(field, Rows) else unmasked(given)
     except ValueError:  # of rows that differ in length
         raise SheetError(f"{field.says(errors.as_given(given))} is no array of numbers") from None
     texts = np.full(column.shape, "", dtype=object)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet import units
+from mechsheet.mechanics.arguments import unmasked
 from mechsheet.worksheet import lines, numbers, source, symbol
 from mechsheet.worksheet.errors import SheetError, as_given, measured, nearest, refuse, texts
 from mechsheet.worksheet.kinds import Input
@@ -55,6 +56,7 @@ class Column:
         if isinstance(self.values, list):
             kind = object if any(isinstance(value, str) for value in self.values) else None
             object.__setattr__(self, "values", np.array(self.values, kind))
+        object.__setattr__(self, "values", unmasked(self.values))
 
     @property
     def name(self) -> str:
