@@ -14,7 +14,8 @@ from openpyxl import load_workbook
 from test_exports import differences
 from test_exports import read as workbook
 
-from mechsheet.run import arguments, batch
+from mechsheet.recording.dimensions import dimensions
+from mechsheet.run import arguments, batch, units_once
 from mechsheet.workbook import save
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
@@ -386,3 +387,15 @@ def test_a_scene_is_judged_by_the_units_of_its_lines_as_a_run_is(tmp_path, capsy
     sheet = own(tmp_path, "L = 2 * g.F  # [m] length of a number")
     assert batch.run(sheet.path, [scene(tmp_path, "one", "[inputs]\nF = 2")]) == 1
     assert "one: FAIL  units: 1 <= 0 mistakes" in capsys.readouterr().out
+
+
+def test_the_units_of_scenes_are_judged_once_while_their_lines_go_the_same_way(tmp_path, capsys, monkeypatch):
+    """To record each would take five times as long as to compute it."""
+    recorded = []
+    monkeypatch.setattr(units_once, "dimensions", lambda *a: recorded.append(a) or dimensions(*a))
+    way = "arm = 2.0  # [m] arm\nall_of = [g.F * 2.0] if g.F <= 3 else [g.F + arm, 1.0]\ny = all_of[0] * 1.0"
+    sheet = own(tmp_path, way)
+    scenes = [scene(tmp_path, f"with_{F}", f"[inputs]\nF = {F}") for F in (1, 2, 2.5, 4, 5, 1.5)]
+    batch.run(sheet.path, scenes)
+    out = capsys.readouterr().out
+    assert (out.count(": FAIL  units"), len(recorded)) == (6, 2)

@@ -32,7 +32,7 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     g = given.pop("g") if _is_whole(sheet, given) else inputs.build(sheet.inputs, given)
     if not getattr(type(g), "__inputs__", ()):
         return by_cells(sheet, names, g)
-    key, ways = (sheet.path, names), _ways(g)
+    key, ways = (sheet.path, names), ways_of(g)
     known = _known.get(key)
     if known is None or known.sheet is not sheet or known.ways != ways:
         _known.pop(key, None)
@@ -79,7 +79,7 @@ class _Known:
 _known: dict[tuple[str, tuple[str, ...]], _Known] = {}
 
 
-def _ways(g: Any) -> tuple[Any, ...]:
+def ways_of(g: Any) -> tuple[Any, ...]:
     """The inputs that are no single numbers that vary: the class, whole numbers, choices, texts, lengths of lists."""
     ways: list[Any] = [type(g)]
     for field in inputs.declared(type(g)):

@@ -98,14 +98,13 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
     where it could never do other.
     """
     found = results(only, want, g)
-    of, leaves_of = found.of, found.of.recording.inputs
-    names, leaves = [*leaves_of], [*leaves_of.values()]
-    compute = plan(leaves, found.wanted, of.same, of.exist)
-    singles = [node.shape == () for node in leaves]
+    of, taken = found.of, found.of.recording.inputs
+    compute = plan([*taken.values()], found.wanted, of.same, of.exist)
+    singles = [node.shape == () for node in taken.values()]
 
     def again(g: Any) -> dict[str, Any] | None:
-        given = _leaves(g)
-        numbers = [given[name] for name in names]
+        given = leaves(g)
+        numbers = [given[name] for name in taken]
         if not all(isinstance(x, float | int) for x, single in zip(numbers, singles, strict=True) if single):
             return None  # variants, or numbers of a type of numpy's, which a worksheet may tell apart
         try:
@@ -123,7 +122,8 @@ def planned(only: Worksheet, want: Sequence[str], g: Any) -> Callable[[Any], dic
     return again
 
 
-def _leaves(g: Any) -> dict[str, Any]:
+def leaves(g: Any) -> dict[str, Any]:
+    """Numbers of inputs, by the names that they have in a recording."""
     found = dict[str, Any]()
     for field in inputs.declared(type(g)):
         held = getattr(g, field.name)

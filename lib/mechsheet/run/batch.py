@@ -21,6 +21,7 @@ from mechsheet.run.arguments import load as load_scene
 from mechsheet.run.ending import INTERRUPTED, MISUSED, say, watch
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of, proof_of_wanted
+from mechsheet.run.units_once import units_of
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
@@ -98,7 +99,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
             with usage():
                 quantities |= {quantity.name: quantity for quantity in results.quantities(want, names)}
     if not given.want:
-        judged.append(report.units_of(names, sheet))
+        judged.append(units_of(names, sheet))
     told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
     if given.proof:
         wanted = [*given.want, *given.limits]

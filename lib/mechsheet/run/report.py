@@ -30,7 +30,7 @@ from mechsheet.workbook.arrangement import too_long
 from mechsheet.workbook.find_sheet import FoundRow
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
-from mechsheet.worksheet.cells import Worksheet, load, results
+from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Check, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import Found
@@ -230,12 +230,6 @@ def workbook(title: str, namespace: Mapping[str, Any], limits: Mapping[str, Limi
     values = limited(own, limits, namespace)
     recording, fit = _recorded(namespace, values)
     return _workbook(title, namespace, [*values, fit], own, recording)
-
-
-@_uncollected()
-def units_of(namespace: Mapping[str, Any], sheet: Worksheet) -> Check:
-    """The check of the units of a run's lines."""
-    return dimensions(record_every_line(namespace, sheet), sheet, namespace, registry(namespace)).check()
 
 
 @_uncollected()
