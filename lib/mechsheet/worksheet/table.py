@@ -56,7 +56,8 @@ class Column:
         if isinstance(self.values, list):
             kind = object if any(isinstance(value, str) for value in self.values) else None
             object.__setattr__(self, "values", np.array(self.values, kind))
-        object.__setattr__(self, "values", unmasked(self.values))
+        if isinstance(self.values, np.ndarray):
+            object.__setattr__(self, "values", unmasked(self.values))
 
     @property
     def name(self) -> str:
