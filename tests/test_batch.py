@@ -281,6 +281,11 @@ def test_jobs_are_a_number_of_processes(jobs):
         batch.run(str(HITCH), [str(EXAMPLES / "heavy.toml"), f"--jobs={jobs}"])
 
 
+def test_jobs_without_a_scene_are_no_input():
+    with pytest.raises(SheetError, match=r"^argument '--jobs=2': processes compute scenes side by side, and none"):
+        arguments.read(["--jobs=2"], ())
+
+
 def test_files_that_would_overwrite_one_another_are_refused(tmp_path):
     (tmp_path / "other").mkdir()
     a, b = scene(tmp_path, "a", 'want = ["L4"]\n'), scene(tmp_path / "other", "a", 'want = ["L4"]\n')

@@ -211,3 +211,13 @@ def test_methods_keep_their_names_and_unknowns_of_a_module_follow(tmp_path: Path
     assert [*evaluate(path, ["M_b", "u"]).values()] == [*before.values()]
     with pytest.raises(SheetError, match=r"^quad is imported, and no symbol of own\.py$"):
         renamed(path, "quad", "integral", {})
+
+
+def test_a_scene_without_inputs_follows_where_all_that_it_names_is_known(tmp_path: Path) -> None:
+    path, other = Path(own(tmp_path, ROWS).path), tmp_path / "other.toml"
+    held = 'want = ["m"]\n[limits]\n"abs(m)" = {max = 3}\n"m over s in 5 m" = {max = 9}\n'
+    scenes = {tmp_path / "limits.toml": held, other: held.replace('"m"]', '"m", "span"]')}
+    scenes[tmp_path / "project.toml"] = "want = 3\ninputs = 4\n"
+    made = renamed(path, "m", "m_1", scenes)
+    assert made[tmp_path / "limits.toml"].startswith('want = ["m_1"]\n[limits]\n"abs(m_1)" = {max = 3}\n"m_1 over s')
+    assert other not in made, "of another worksheet"

@@ -63,6 +63,8 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
         if argument == "--tolerances":
             scene = replace(scene, tolerances=True)
             continue
+        if name == "jobs" and argument.startswith("--") and "jobs" not in {field.name for field in declared}:
+            raise SheetError(f"argument {argument!r}: processes compute scenes side by side, and none is given")
         if not (argument.startswith("--") and name and equals) or (name in _OF_A_RUN and not value):
             forms = "--NAME=VALUE, --want=NAMES, --scene=FILE, --out=FOLDER, --proof, --proof=DIGITS or --tolerances"
             raise SheetError(f"argument {argument!r} must be {forms}")

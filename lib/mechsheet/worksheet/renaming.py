@@ -56,7 +56,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     made = {path: _in_worksheet(text, old, new, sheet.inputs.__name__ if old in declared else "")}
     ast.parse(made[path])
     for scene, held in scenes.items():
-        if is_of(held, declared) and (other := _in_scene(held, old, new)) != held:
+        if is_of(held, declared, known) and (other := _in_scene(held, old, new)) != held:
             made[scene] = other
     return made
 

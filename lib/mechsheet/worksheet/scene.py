@@ -17,11 +17,12 @@ A wanted or limited name is that of a result, a part of one as in a table (``PS6
 
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.errors import SheetError, as_given, cut
 from mechsheet.worksheet.kinds import number
 
@@ -54,15 +55,23 @@ def beside(worksheet: Path) -> list[Path]:
     return sorted([*worksheet.parent.glob("*.toml"), *worksheet.parent.glob("scenes/*.toml")])
 
 
-def is_of(text: str, declared: Iterable[str]) -> bool:
-    """Whether the text of a file is that of a scene that gives inputs, all of them among the ``declared`` ones."""
+def is_of(text: str, declared: Iterable[str], results: Collection[str] = ()) -> bool:
+    """Whether the text of a file is that of a scene that gives inputs, all of them among the ``declared`` ones.
+
+    With ``results`` one too that gives none, and wants or limits some of these alone, beside checks.
+    """
     import tomllib  # on use: most runs are given no scene
 
     try:
-        given = tomllib.loads(text).get("inputs", {})
+        content = tomllib.loads(text)
     except tomllib.TOMLDecodeError:
         return False
-    return bool(given) and set(map(as_read, given)) <= set(declared)
+    given, *named = (content.get(part, ()) for part in ("inputs", "want", "limits"))
+    if given or not results:
+        return isinstance(given, dict) and bool(given) and set(map(as_read, given)) <= set(declared)
+    names = (name for part in named if isinstance(part, list | dict) for name in part if isinstance(name, str))
+    asked = {root for name in names if (root := base(as_read(name))).isidentifier()}
+    return bool(asked) and asked <= {*results, *declared}
 
 
 def load(path: Path) -> Scene:
