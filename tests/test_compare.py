@@ -15,6 +15,7 @@ from openpyxl import Workbook
 from own_worksheet import own
 from test_kinds import SHEET, use
 
+from mechsheet import evaluate
 from mechsheet.run import compare
 from mechsheet.worksheet.results import Displayed
 
@@ -230,3 +231,18 @@ def test_what_agreements_leave_is_no_difference(tmp_path, monkeypatch, capsys) -
 def test_rounding_is_no_difference() -> None:
     assert numbers_that_differ({"x": [0.3]}, {"x": [0.1 + 0.2]}) == {}
     assert numbers_that_differ({"F": [400.0], "left": [1e-14]}, {"F": [400.0], "left": [-3e-14]}) == {}
+
+
+def test_modules_beside_a_worksheet_are_those_of_its_revision(tmp_path, monkeypatch, capsys) -> None:
+    path, helper = Path(own(tmp_path, "W = 1 * g.F  # [-] factor").path), tmp_path / "beside_it.py"
+    text = path.read_text(encoding="utf-8").replace("W = 1 *", "from beside_it import factor\n    W = factor *")
+    path.write_text(text.replace("import math", "import beside_it\n    import math", 1), encoding="utf-8")
+    helper.write_text("factor = 2.0\n", encoding="utf-8")
+    git(tmp_path, "init", "-q")
+    git(tmp_path, "add", ".")
+    git(tmp_path, "commit", "-qm", "first")
+    helper.write_text("factor = 3.0  # now\n", encoding="utf-8")
+    code, out, _ = compared(path, monkeypatch, capsys, "HEAD", "own.py")
+    assert code == 1 and "W: 5 -> 7.5  +2.5 (+50 %)" in out
+    monkeypatch.chdir(tmp_path.parent)
+    assert evaluate(path, ["W"], F=1.0)["W"] == 3.0, "from another folder too"

@@ -11,7 +11,7 @@ import sys
 import tarfile
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import cache, partial
 from itertools import chain
@@ -106,13 +106,31 @@ def state(worksheet: Path, name: str, folders: ExitStack) -> State:
 
 def _state(worksheet: Path, name: str, folders: ExitStack) -> State:
     if Path(name).suffix.lower() in (".toml", ".xlsx"):
-        sheet = load(worksheet)
-        return _of(sheet, arguments.load(Path(name), inputs.declared(sheet.inputs)))
-    if Path(name).suffix.lower() == ".py":
-        return _of(load(Path(name)), Scene())
-    folder = Path(folders.enter_context(tempfile.TemporaryDirectory()))
-    _check_out(worksheet.resolve(), name, folder)
-    return _of(load(folder / worksheet.name), Scene())
+        file = worksheet
+    elif Path(name).suffix.lower() == ".py":
+        file = Path(name)
+    else:
+        file = Path(folders.enter_context(tempfile.TemporaryDirectory())) / worksheet.name
+        _check_out(worksheet.resolve(), name, file.parent)
+    with _own_modules(file.resolve().parent):
+        sheet = load(file)
+        is_scene = file is worksheet
+        return _of(sheet, arguments.load(Path(name), inputs.declared(sheet.inputs)) if is_scene else Scene())
+
+
+@contextmanager
+def _own_modules(folder: Path) -> Iterator[None]:
+    """Modules beside a worksheet are those of its own state."""
+    before = set(sys.modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name in set(sys.modules) - before:
+            file = Path(getattr(sys.modules[name], "__file__", None) or "")
+            if file.is_relative_to(folder) and "site-packages" not in file.parts:
+                del sys.modules[name]
 
 
 def _check_out(worksheet: Path, revision: str, folder: Path) -> None:
@@ -153,7 +171,7 @@ def _shaken(sheet: Worksheet, g: Any, own: Mapping[str, Displayed]) -> dict[str,
     moved, rng = dict.fromkeys(own, 0.0), np.random.default_rng(0)
     for _ in range(_DRAWS):
         try:
-            with silently():
+            with silently(), _own_modules(Path(sheet.path).parent):
                 there = _numbers(sheet.run(sheet.results, beforehand(_by_roundings(g, rng))))
         except OF_NUMBERS:
             continue

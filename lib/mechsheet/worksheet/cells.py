@@ -2,6 +2,7 @@
 
 import ast
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from copy import copy, deepcopy
 from dataclasses import dataclass, field
@@ -281,6 +282,8 @@ def read(path: Path) -> Worksheet:
                 common[name or "marimo"] = Marimo()
             case _:
                 lines.append(node)
+    if (folder := str(path.parent)) not in sys.path:
+        sys.path.append(folder)  # its modules are found wherever it is run from, and stand in place of no other
     with raised(), np.errstate():
         exec(compile(ast.Module(lines, []), path, "exec"), common)
         errors = np.geterr()
