@@ -490,13 +490,16 @@ c = assembled("closes", C, g.F, (2.0, 8.0), "F", "-")"""
         assert bands(cells.load(path))[0].sure["closes"] == said
 
 
-def test_a_group_that_does_not_close_where_two_are_short_is_told(tmp_path):
+def test_a_group_that_does_not_close_where_two_are_short_is_told(tmp_path, capsys):
     more = """
 from mechsheet import assembled
 C = rrr(0, 5.0, g.F, 4 * g.a, +1)  # [m] pin
 c = assembled("closes", C, g.F, (2.0, 8.0), "F", "-")"""
     for F, said in (("± 0.3", "at both ends of each tolerance"), ("± 0.4", "fails where several are at their ends")):
         assert bands(off(tmp_path, 9, F, "± 0.04", more))[0].sure["closes"] == said
+    sheet = off(tmp_path, 9, "± 0.4", "± 0.04", more)
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=closes"], declared(sheet.inputs)))
+    assert "closes: pass, fails where several are at their ends" in capsys.readouterr().out
 
 
 def test_of_a_check_that_is_not_evaluated_nothing_is_sure(tmp_path):

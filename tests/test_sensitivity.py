@@ -277,6 +277,8 @@ def test_variants_without_a_value_leave_no_band():
             lambda: tolerance(HITCH, ["GS6"], dict.fromkeys(list(FIELDS)[:13], 0)),
             "13 tolerances have 2[*][*]13 corners",
         ),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": "1 %"}), "L3 = '1 %' m must be a number >= 0"),
+        (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, percentiles=[200]), "percentile 200 must be 0..100"),
         (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "monte carlo"), "needs a seed"),
         (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "monte carlo", seed=1, count=1), "count = 1 variants"),
         (lambda: tolerance(HITCH, ["GS6"], {"L3": 0}, "worst"), "method 'worst' must be"),

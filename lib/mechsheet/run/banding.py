@@ -98,7 +98,8 @@ def lines(
         yield from _of_table(table, run_bands(recording, [table], (), {}, by, run).banded)
     for check in _own(checks, namespace):
         if check.evaluated and check.name in recording.checks:
-            yield f"{check.name}: {check.verdict} {bands.sure(check.name, check.passed)}"
+            sure = bands.sure(check.name, check.passed)
+            yield f"{check.name}: {check.verdict}{',' * sure.startswith(('fails', 'holds', 'how'))} {sure}"
 
 
 def _told(band: Band, name: str, node: Node, line: Formula, bands: Bands, jump: Jump | None, how: str) -> Band:

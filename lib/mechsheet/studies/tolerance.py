@@ -14,7 +14,7 @@ from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.deviation import SIGMAS
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.table import Column, Table, usual_decimals
 
 Array = NDArray[np.float64]
@@ -132,10 +132,12 @@ def tolerance(
         raise SheetError(f"distribution {distribution!r} must be 'uniform' or 'normal'")
     for x, t in tolerances.items():
         continuous(fields, x, "cannot have a tolerance:")
-        if not (np.isfinite(t) and t >= 0):
-            raise SheetError(
-                f"tolerance of {fields[x].meaning} {x} = {t}{numbers.suffix(fields[x].unit)} must be a number >= 0"
-            )
+        if not (isinstance(t, int | float | np.number) and np.isfinite(t) and t >= 0):
+            told = f"{as_given(t)}{numbers.suffix(fields[x].unit)}"
+            raise SheetError(f"tolerance of {fields[x].meaning} {x} = {told} must be a number >= 0")
+    for p in percentiles:
+        if not 0 <= p <= 100:
+            raise SheetError(f"percentile {p} must be 0..100")
     spread = np.array(list(tolerances.values()))
     if method == "corners":
         if len(spread) > _CORNERS:
