@@ -460,6 +460,13 @@ def test_inputs_may_be_called_as_what_a_study_is_asked_is(name, tmp_path, capsys
     assert dict(zip(table_1.columns[0].values, table_1.columns[4].values, strict=True)) == {"F": 4, name: 5, "a": 0}
 
 
+def test_random_cases_of_a_result_called_as_an_input_are_in_its_unit(tmp_path, capsys):
+    sheet = off(tmp_path, 9, "± 1", "", "\nF = 4 * g.F  # [kN] force, called as a number is")
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=F"], declared(sheet.inputs)))
+    out = capsys.readouterr().out
+    assert re.search(r"^0\.01 +± 0\.004 +± 0\.004 +0\.0060\d+\.\.0\.0139\d+ +0\.006\.\.0\.014$", out, re.MULTILINE), out
+
+
 def test_cases_print_and_warn_of_nothing(tmp_path, capsys):
     more = "\nj = np.floor(g.F)  # [-] jumps\nprint('of a line', g.F)\nv = np.log(np.array([g.F - 2.5]))  # [-] none"
     with pytest.warns(RuntimeWarning, match="divide by zero") as warned:

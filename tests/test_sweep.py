@@ -13,9 +13,12 @@ import numpy as np
 import pandas as pd
 import pytest
 from by_cells import by_cells
+from own_worksheet import own
 
 from mechsheet.studies import chunks
+from mechsheet.studies.sensitivity import sensitivity
 from mechsheet.studies.sweep import Sweep, grid, sweep
+from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
@@ -525,3 +528,21 @@ def test_dask_gives_the_same_and_computes_the_chunk_of_a_killed_worker_again(lev
         swept = sweep(path, ["M_S"], {"F": FORCES}, chunk=4, executor=client.get_executor())
         assert (tmp_path / "killed").exists()
         assert same(swept, sweep(path, ["M_S"], {"F": FORCES}, chunk=4))
+
+
+SAME_NAMES = """
+F = 4 * g.F  # [kN] force, called as a number is
+a_S = 2 * x * g.a  # [-] field, whose heading is that of an input"""
+
+
+def test_a_result_called_as_an_input_has_its_own_unit_and_column(tmp_path):
+    sheet = own(tmp_path, SAME_NAMES)
+    swept = sweep(sheet.path, ["F", "a_S"], {"F": [1.0, 2.0], "a": [0.5, 0.5]})
+    assert (swept.units["F"], swept.input_units["F"]) == ("kN", "-") and swept.display("F").tolist() == [0.004, 0.008]
+    frame = swept.frame()
+    assert [*frame] == ["variant", "position", "g.F [-]", "a [-]", "F [kN]", "a_S [-]", "reason"]
+    assert frame["g.F [-]"].tolist() == [1.0] * 5 + [2.0] * 5 and frame["F [kN]"].iloc[-1] == 0.008
+    found = sensitivity(sheet.path, ["F"], ["F"])
+    assert found.unit("F", "F") == "kN" and found.slopes["F"].tolist() == pytest.approx([0.004])
+    banded = tolerance(sheet.path, ["F"], {"F": 0.5})
+    assert float(banded["F"].greatest) == pytest.approx(0.012) and "F ± 0.5 of" not in banded.table("1", "").note

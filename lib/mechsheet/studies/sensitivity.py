@@ -56,8 +56,8 @@ class Sensitivity:
         Results that are differentiated by differences, and what of them is not recorded.
     reasons : dict of str to str
         For an input, why the results cannot be differentiated by it; "" where they can.
-    units : dict of str to str
-        Display units of the results and inputs.
+    units, input_units : dict of str to str
+        Display units of the results and of the inputs.
     """
 
     names: tuple[str, ...]
@@ -68,6 +68,7 @@ class Sensitivity:
     differences: dict[str, str]
     reasons: dict[str, str]
     units: dict[str, str]
+    input_units: dict[str, str]
     meanings: dict[str, str]
 
     def relative(self, name: str) -> Array:
@@ -79,7 +80,7 @@ class Sensitivity:
 
     def unit(self, name: str, by: str) -> str:
         """Unit of a derivative, such as ``N/m``."""
-        over = self.units[by]
+        over = self.input_units[by]
         return self.units[name] if over == "-" else f"{_one(self.units[name])}/{_grouped(over)}"
 
     def position(self, name: str, at: Position) -> int:
@@ -104,7 +105,7 @@ class Sensitivity:
         columns = (
             _texts("input", by, names=True),
             Column("value", "", "where the derivative is taken, in the input's unit", 4, here, unlike=True),
-            _texts("unit", [units.shown(self.units[x]) for x in by]),
+            _texts("unit", [units.shown(self.input_units[x]) for x in by]),
             Column("relative", "-", f"d ln {name} / d ln input", 4, relative),
             Column("derivative", "", f"d {name} / d input", 4, slopes, unlike=True),
             _texts("derivative's unit", [units.shown(self.unit(name, x)) for x in by]),
@@ -266,7 +267,8 @@ def sensitivity(
         errors,
         why,
         lost,
-        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in chosen}},
+        {name: swept.units[base(name)] for name in names},
+        {x: fields[x].unit for x in chosen},
         {x: fields[x].meaning for x in chosen},
     )
 

@@ -57,7 +57,9 @@ class Sweep:
     reasons : array of str
         For each variant why it lacks a value, naming the quantity; "" where it lacks none.
     units : dict of str to str
-        Display units of the inputs given and of the results.
+        Display units of the inputs given and of the results; of a name that both have that of the result.
+    input_units : dict of str to str
+        Display units of the inputs given.
     at_once : bool
         Whether the worksheet takes arrays of variants, or its recording does; otherwise they were run one by one,
         which takes longer.
@@ -68,6 +70,7 @@ class Sweep:
     inputs: dict[str, NDArray[Any]]
     reasons: NDArray[np.object_]
     units: dict[str, str]
+    input_units: dict[str, str]
     at_once: bool
     _values: dict[str, NDArray[Any]]
 
@@ -107,12 +110,15 @@ class Sweep:
         columns = {"variant": column(np.arange(size))}
         if any(self[name].ndim > len(self.shape) for name in self.names):
             columns["position"] = np.tile(np.arange(positions), size)
-        for name, values in {**self.inputs, **shown}.items():
+        for name, values in self.inputs.items():
+            label = f"g.{heading(name)}" if name in shown else heading(name)
+            columns[f"{label} [{self.input_units[name]}]"] = column(values)
+        for name, values in shown.items():
             root, own = split(name)
             parts = {"real": values.real, "imag": values.imag} if np.iscomplexobj(values) else {own: values}
             for part, numbers in parts.items():
-                label = heading(root, "" if part == "abs" else part)
-                columns[f"{label} [{self.units[name]}]"] = column(numbers)
+                label = f"{heading(root, '' if part == 'abs' else part)} [{self.units[name]}]"
+                columns[label if label not in columns else f"{name} [{self.units[name]}]"] = column(numbers)
         columns["reason"] = column(self.reasons)
         return pd.DataFrame(columns)
 
@@ -240,7 +246,8 @@ def _swept(
         names=want,
         inputs=given.shown,
         reasons=reasons.reshape(given.shape),
-        units={**{name: declared.get(name, "-") for name in want}, **given.units},
+        units={**given.units, **{name: declared.get(name, "-") for name in want}},
+        input_units=given.units,
         at_once=job.at_once or bool(job.recorded),
         _values={name: v.reshape((*given.shape, *v.shape[1:])) for name, v in values.items()},
     )

@@ -50,6 +50,7 @@ class Tolerance:
     method: str
     bands: dict[str, Band]
     units: dict[str, str]
+    input_units: dict[str, str]
     count: int
     lost: int
     reason: str
@@ -75,7 +76,7 @@ class Tolerance:
         if len(shapes) > 1:
             raise SheetError(f"bands of {', '.join(names or self.names)} have different positions and no common table")
         k = Column("k", "-", "number of the position", 0, np.arange(shapes.pop()[0], dtype=float))
-        units_of = {x: numbers.suffix(self.units[x]) for x in self.tolerances}
+        units_of = {x: numbers.suffix(self.input_units[x]) for x in self.tolerances}
         each = (f"{x} ± {numbers.significant(t, 6)}{units_of[x]}" for x, t in self.tolerances.items())
         lost = f" {self.lost} have no value: {self.reason}." if self.lost else ""
         note = f"{self.count} variants by {self.method} of {', '.join(each)}.{lost}"
@@ -168,7 +169,8 @@ def tolerance(
         dict(tolerances),
         f"{method}, {_said(normal)}, seed {seed}" if method == "monte carlo" else method,
         bands,
-        {**{name: swept.units[base(name)] for name in names}, **{x: fields[x].unit for x in tolerances}},
+        {name: swept.units[base(name)] for name in names},
+        {x: fields[x].unit for x in tolerances},
         len(parts),
         len(lost),
         str(lost[0]) if len(lost) else "",
