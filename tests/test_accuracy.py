@@ -144,6 +144,7 @@ def test_derivatives_finds_and_reactions_are_compared_by_every_method(hitch):
     assert settings(derivatives, "central differences") == pytest.approx(decades(1, 10))
     assert settings(derivatives, "differences of five points") == pytest.approx(decades(2, 5))
     assert settings(derivatives, "spline of the table") == [10 * 2**k for k in range(8)]
+    assert settings(derivatives, "polynomial of the table") == [10, 20, 40, 80]
     finds = {m.family for m in finding.find_methods(HITCH, [1.0])}
     assert finds == {
         *("find", "inverse mechanism", "find_root", "brentq", "Newton", "secant", "hybr", "hybr, printed formulas"),
@@ -186,6 +187,13 @@ def test_differences_gain_by_the_order_of_their_formula(hitch, order):
         assert gain / 3 < rows[1e-2] / rows[1e-3] < 3 * gain, family
 
 
+@pytest.mark.parametrize("order", [1, 2])
+def test_a_polynomial_makes_more_of_a_table_than_a_spline(hitch, order):
+    methods, own = rivals.derivative_methods(hitch, S, 0.25, order), hitch.analogues(order, S)
+    error = {(m.family, m.setting): np.max(abs(m.run() - own)) for m in methods if "table" in m.family}
+    assert error["polynomial of the table", "40"] < 1e-3 * error["spline of the table", "1280"]
+
+
 def test_iterations_have_the_slopes_of_their_equations():
     lengths = [*FOUND.values()]
     for k, x in enumerate(lengths):
@@ -211,20 +219,30 @@ def test_all_ways_to_the_lifting_rod_put_the_axis_at_its_height():
 def test_a_fast_valve_is_stiff_and_a_dead_centre_is_not():
     """Told by the evaluations of the solvers, and by how often the fastest mode decays: the lift takes 500 of its."""
     table = responses.integration_steps("1.8", HITCH)
-    drive, decays, tolerance, method, steps, evaluations, *_ = (column.values for column in table.columns)
+    drive, decays, tolerance, method, steps, evaluations, *_, error = (column.values for column in table.columns)
     assert sorted(set(tolerance)) == [1e-7, 1e-3]
     rows = list(zip(drive, method, tolerance == 1e-3, steps, evaluations, strict=True))
     needed = {(of, name): n for of, name, loose, _, n in rows if not loose}
-    at_once = {(of, name): n for of, name, loose, _, n in rows if loose}
     taken = {(of, name): n for of, name, loose, n, _ in rows if loose}
     valve, crank = "cylinder behind a fast valve", "crank past a dead centre"
     explicit, implicit = ("RK45", "DOP853"), ("LSODA", "BDF", "Radau")
     assert min(needed[valve, m] for m in explicit) > 1.5 * max(needed[valve, m] for m in implicit)
     assert min(needed[valve, m] for m in explicit) > 3 * needed[valve, "LSODA"]
     assert max(taken[valve, m] for m in implicit) < 0.5 * min(taken[valve, m] for m in explicit)
-    for found in (needed, at_once):
-        assert found[crank, "RK45"] < min(found[crank, m] for m in implicit)
+    assert needed[crank, "RK45"] < min(needed[crank, m] for m in implicit)
+    lost = [(of, name) for of, name, e in zip(drive, method, error, strict=True) if e > 0.1]
+    assert lost == [(crank, "RK45"), (crank, "DOP853"), (crank, "BDF")]  # in the other assembly
+    assert np.all(error[tolerance == 1e-7] < 1e-5)
     assert decays[drive == valve] == pytest.approx(500) and np.all(decays[drive == crank] < 20)
+
+
+def test_a_drive_that_alone_is_integrated_takes_the_pin_with_it():
+    job, crank = responses.response_jobs(("1.6", "1.7"), HITCH)
+    assembled = [m for m in job.methods if "assembled" in m.family and m.setting]
+    assert [m.setting for m in assembled] == ["1e-05", "1e-09"] * 2
+    for m in assembled:
+        assert largest_error(m.run(), job.truth) < 10 * float(m.setting), m.family
+    assert not any("assembled" in m.family and m.setting for m in crank.methods)
 
 
 @pytest.mark.parametrize("drive", [responses.lift(HITCH), responses.crank_past_dead_centre()])
@@ -513,6 +531,12 @@ def test_a_sensitivity_is_what_a_run_with_other_inputs_tells(studies):
             sheet.run(["GS6"], {"g": replace(g, **{name: x * (1 + way * step)})})["GS6"][[0, 4]] for way in (1, -1)
         )
         assert truth[names.index(name)] == pytest.approx((ahead - behind) / (ahead + behind) / step, rel=1e-6), name
+
+
+def test_five_points_make_more_of_a_sweep_than_two(studies):
+    rows = studies["8.4"].methods
+    errors = {(m.family, m.setting): largest_error(m.run(), studies["8.4"].truth) for m in rows if "diff" in m.family}
+    assert errors["differences of five points", "1e-04"] < 1e-4 * errors["differences by a sweep", "1e-04"]
 
 
 @pytest.mark.parametrize("number", ["8.1", "8.2", "8.3", "8.4"])

@@ -231,16 +231,18 @@ def time_responses(hitch, jobs, seconds):
     """
     ### Drives over time
 
-    The product solves no equations of motion: it assembles the position at any time from the drive's coordinate. Others
-    integrate the velocity equations. They are stiff where something in the drive is much faster than the motion: here
-    the valve of the hitch's cylinder, which follows its command within milliseconds while the lift takes a second. Its
-    mode decays hundreds of times on the way (table 1.8), so explicit methods are held to small steps whatever the
-    tolerance, and implicit ones, with the Jacobian in closed form, are not: they take less than half of the steps where
-    the tolerance is loose, and more and more of theirs where it is tight.
+    The product solves no equations of motion: it assembles the position at any time from the drive's coordinate, which
+    both drives here have in closed form. Where there is none that alone need be integrated, as LSODA and Radau do
+    before they assemble. Others integrate the velocity equations. They are stiff where something in the drive is much
+    faster than the motion: here the valve of the hitch's cylinder, which follows its command within milliseconds while
+    the lift takes a second. Its mode decays hundreds of times on the way (table 1.8), so explicit methods are held to
+    small steps whatever the tolerance, and implicit ones, with the Jacobian in closed form, are not: they take less
+    than half of the steps where the tolerance is loose, and more and more of theirs where it is tight.
 
     A crank that passes a dead centre of its coupler and rocker within a millionth of its length makes the equations
-    steep, but not stiff: their fastest mode grows and decays some ten times in all, and RK45, an explicit method, takes
-    fewer evaluations than any implicit one.
+    steep, but not stiff: their fastest mode grows and decays some ten times in all, and where the tolerance is tight
+    RK45, an explicit method, takes fewer evaluations than any implicit one. Where it is loose RK45, DOP853 and BDF step
+    over the dead centre and go on in the other assembly: they report success, and no digit is right.
     """
     jobs_16 = jobs["1.6"].compare(seconds), jobs["1.7"].compare(seconds)
     table_16, table_17 = jobs_16[0].table(), jobs_16[1].table()
@@ -258,8 +260,9 @@ def section_2():
 
     First and second derivatives of the angles of the links 3 to 7 of the hitch with respect to $S$, each way with the
     positions that it needs. Differences take the positions at both sides, at steps that are parts of the stroke, those
-    of five points at twice the step too; the interpolation is a cubic spline through a table of so many positions. All
-    take closed forms without checks, so that central differences are sooner than the library, with fewer digits.
+    of five points at twice the step too; interpolated is a table of so many positions, by a cubic spline, or by a
+    polynomial where they are dense at both ends as Chebyshev has it. All take closed forms without checks, so that
+    central differences are sooner than the library, with fewer digits.
     """)
     return
 
@@ -625,9 +628,9 @@ def section_8():
     Two unknowns are the angles of the general dyad's links, every solution in a full turn of both: `find` samples the
     whole square and says what it saw; fsolve from a grid of starts, with the slopes in closed form, finds the same two
     much sooner, and would not know of others; the closed form is that of a dyad alone. The neutral axis is that of 24
-    elements; the document's iteration takes no longer, and nobody has shown that it must end. A sweep runs the hitch's
-    worksheet for all variants at once; a sensitivity follows its recording, through what is found, with all the digits
-    that differences lose.
+    elements; the document's iteration takes a part of the time, and nobody has shown that it must end. A sweep runs the
+    hitch's worksheet for all variants at once; a sensitivity follows its recording, through what is found, with all the
+    digits that differences lose.
     """)
     return
 

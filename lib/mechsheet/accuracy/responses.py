@@ -20,7 +20,7 @@ from mechsheet.accuracy.chains import Chain, Dyad, crank_chain, hinges
 from mechsheet.accuracy.conditioning import condition
 from mechsheet.accuracy.exact import turn
 from mechsheet.accuracy.plain import rrr_turns
-from mechsheet.accuracy.precision import Job, Method
+from mechsheet.accuracy.precision import Job, Method, largest_error
 from mechsheet.accuracy.rivals import family, powers
 from mechsheet.mechanics.rrr import rrr
 from mechsheet.worksheet.table import Column, Table
@@ -42,6 +42,9 @@ class Drive:
     rates: Callable[[float, Any], list[float]]
     slopes: Callable[[float, Any], list[list[float]]]
     along: Callable[[Any], Any]  # the chain's coordinate at the times
+    alone: tuple[Callable[[float, Any], list[float]], Callable[[float, Any], list[list[float]]]] | None = (
+        None  # rates and slopes of all but the angles
+    )
 
     def integrated(self, method: str, tolerance: float, at: Any = None) -> Any:
         """The result of `solve_ivp`, at its own steps where no times are given."""
@@ -53,6 +56,13 @@ class Drive:
         """The inner pin at the times by integration."""
         (dyad,) = self.chain.dyads
         return dyad.B + dyad.r_B * np.exp(1j * self.integrated(method, tolerance, self.times).y[-1])
+
+    def assembled(self, method: str, tolerance: float) -> Any:
+        """The inner pin at the times by assembly from the chain's coordinate, which alone is integrated."""
+        assert self.alone
+        rates, slopes = self.alone
+        solve: Any = partial(solve_ivp, rates, (self.times[0], self.times[-1]), self.start[:-2], method, self.times)
+        return self.chain.pins(solve(rtol=tolerance, atol=tolerance, jac=slopes).y[-1])
 
     @property
     def decays(self) -> float:
@@ -85,6 +95,9 @@ def lift(h: Any) -> Drive:
         turning, _slopes = _turning(chain, complex, S, alpha, beta)
         return [(1 - opening) / _LAG, *(rate * speed * opening for rate in (1, *turning))]
 
+    def valve(_: float, y: Any) -> list[float]:
+        return [(1 - y[0]) / _LAG, speed * y[0]]
+
     def slopes(_: float, y: Any) -> list[list[float]]:
         opening, S, alpha, beta = y
         turning, by = _turning(chain, complex, S, alpha, beta)
@@ -93,7 +106,12 @@ def lift(h: Any) -> Drive:
 
     times = np.linspace(0, _STROKE, _TIMES)
     start = [0.0, h.S_min, *chain.angles(np.array([h.S_min]))[:, 0]]
-    return Drive(chain, times, start, rates, slopes, lambda t: h.S_min + speed * (t + _LAG * np.expm1(-t / _LAG)))
+
+    def along(t: Any) -> Any:
+        return h.S_min + speed * (t + _LAG * np.expm1(-t / _LAG))
+
+    alone = valve, lambda *_: [[-1 / _LAG, 0], [speed, 0]]
+    return Drive(chain, times, start, rates, slopes, along, alone)
 
 
 def crank_past_dead_centre() -> Drive:
@@ -150,12 +168,16 @@ def _methods(drive: Drive, tolerances: Sequence[float]) -> list[Method]:
     ways = [Method("library: assembled", "", lambda: drive.chain.pins(drive.along(drive.times)))]
     for solver in SOLVERS:
         ways += family(f"solve_ivp {solver}", tolerances, partial(drive.pins, solver))
+    for solver in ("LSODA", "Radau") if drive.alone else ():
+        ways += family(f"{solver} of the drive, assembled", tolerances, partial(drive.assembled, solver))
     return ways
 
 
 def integration_steps(number: str, h: Any, tolerances: Sequence[float] = (1e-3, 1e-7)) -> Table:
-    """Table of the steps, evaluations, Jacobians and decompositions of each solver on both drives."""
-    drives = {"cylinder behind a fast valve": lift(h), "crank past a dead centre": crank_past_dead_centre()}
+    """Table of the steps, evaluations, Jacobians, decompositions and errors of each solver on both drives."""
+    arm, crank = lift(h), crank_past_dead_centre()
+    drives = {"cylinder behind a fast valve": arm, "crank past a dead centre": crank}
+    truths = dict(zip(drives, (_lift_pins(h, arm.times.tolist())["C"], _crank_pins(crank)["C"]), strict=True))
     rows = [
         (name, tolerance, solver, drive.integrated(solver, tolerance))
         for name, drive in drives.items()
@@ -164,6 +186,7 @@ def integration_steps(number: str, h: Any, tolerances: Sequence[float] = (1e-3, 
     ]
     decays = {name: drive.decays for name, drive in drives.items()}
     counts = {"steps": [len(r.t) - 1 for *_, r in rows], "evaluations": [r.nfev for *_, r in rows]}
+    errors = [largest_error(drives[name].pins(solver, tol), truths[name]) for name, tol, solver, _ in rows]
     counts |= {"jacobians": [r.njev for *_, r in rows], "decompositions": [r.nlu for *_, r in rows]}
     columns = (
         Column("drive", "", "", 0, np.array([name for name, *_ in rows], object)),
@@ -177,5 +200,6 @@ def integration_steps(number: str, h: Any, tolerances: Sequence[float] = (1e-3, 
         Column("tolerance", "-", "relative and absolute", 0, np.array([row[1] for row in rows]), power=True),
         Column("method", "", "of solve_ivp", 0, np.array([row[2] for row in rows], object)),
         *(Column(name, "-", "", 0, np.array(values, float)) for name, values in counts.items()),
+        Column("error", "-", "largest of the pin over the largest number, at most 1", 1, np.array(errors), power=True),
     )
     return Table(number, "Steps of the integrators", columns)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy import exp, linspace, nan
+from numpy.polynomial.chebyshev import chebder, chebval
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import fsolve
@@ -152,7 +153,7 @@ def derivative_methods(
 ) -> list[Method]:
     """All ways to the first or second derivatives of the angles of the links but the cylinder.
 
-    Differences and splines take angles by closed forms without checks, the fastest that there are.
+    Differences, splines and polynomials take angles by closed forms without checks, the fastest that there are.
     """
 
     def angles(q: Any) -> Any:
@@ -174,6 +175,13 @@ def derivative_methods(
         table = linspace(q[0], q[-1], n)
         return CubicSpline(table, angles(table), axis=1)(q, order)
 
+    def polynomial(n: int) -> Any:
+        """Through a table at Chebyshev's places, of which it makes the most."""
+        theta, k = np.pi * (np.arange(n) + 0.5) / n, np.arange(n)[:, None]
+        middle, half = (q[0] + q[-1]) / 2, (q[-1] - q[0]) / 2
+        parts = np.cos(k * theta) @ angles(middle + half * np.cos(theta)).T * (np.where(k, 2, 1) / n)
+        return chebval((q - middle) / half, chebder(parts, order)) / half**order
+
     return [
         Method(f"library: rrr_{('velocity', 'acceleration')[order - 1]}", "", partial(chain.analogues, order, q)),
         Method("closed form, no checks", "", partial(chain.plain_analogues, order, q), UNCHECKED),
@@ -185,6 +193,7 @@ def derivative_methods(
         *family("central differences", powers(1, 10), differences),
         *family("differences of five points", powers(2, 5), five_points),
         *family("spline of the table", [10 * 2**k for k in range(8)], spline),
+        *family("polynomial of the table", [10 * 2**k for k in range(4)], polynomial),
     ]
 
 

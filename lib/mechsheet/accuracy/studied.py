@@ -1,6 +1,6 @@
 """Studies: what they cost beside one run of a worksheet, and their results beside 50 digits and other ways to them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -21,7 +21,7 @@ from mechsheet.accuracy.jobs import inputs_of
 from mechsheet.accuracy.precision import Job, Method
 from mechsheet.accuracy.rivals import UNCHECKED, family, powers
 from mechsheet.accuracy.timing import STEPS, time_spread, timed
-from mechsheet.mechanics.joint import bending, neutral_axis
+from mechsheet.mechanics.joint import neutral_axis
 from mechsheet.mechanics.rrr import rrr
 from mechsheet.quantities.unrepeatable import clock_read
 from mechsheet.readers import numbers as computed
@@ -115,7 +115,11 @@ def axes() -> Job:
         """The document's iteration: areas by the signs of the stresses that they lead to, until they stay."""
         A = np.broadcast_to(A_c, (M.size, y.size))
         for _ in range(100):
-            sigma = bending(y, A, M, N).sigma
+            F = A.sum(-1)
+            y_c = A @ y / F
+            lever = y - y_c[:, None]
+            slope = (M - N * y_c) / (A * lever**2).sum(-1)
+            sigma = (N / F)[:, None] + slope[:, None] * lever
             others = np.where(sigma > 0, A_t, A_c)
             if np.array_equal(A, others):
                 break
@@ -139,7 +143,7 @@ def axes() -> Job:
 
     ways = [
         Method("neutral_axis", "", lambda: neutral_axis(y, A_t, A_c, M, N).force),
-        Method("document's iteration", "", iterated, "no proof that it ends"),
+        Method("document's iteration", "", iterated, f"{UNCHECKED}, no proof that it ends"),
         Method(
             "fsolve, each case", "", lambda: np.array([each(moment) for moment in M.tolist()]), "no proof that it ends"
         ),
@@ -203,14 +207,19 @@ def _sensitivity(path: Path, hitch: Any, sweep: Callable[..., Any], sensitivity:
         ahead, behind = moved(name, 1, k), moved(name, -1, k)
         return (ahead - behind) / (ahead + behind) / _STEP
 
+    def swept(steps: Sequence[float]) -> Any:
+        """The capacity by one sweep of all inputs, each moved by these parts of itself; shape (steps, inputs, 2)."""
+        ways = np.concatenate([step * np.eye(len(names)) for step in steps])
+        values = sweep(path, ["GS6"], {name: first.inputs[name] * (1 + ways[:, i]) for i, name in enumerate(names)})
+        return values["GS6"][:, at].reshape(len(steps), len(names), -1)
+
     def differences(step: float) -> Any:
-        """Of one sweep of all inputs, each moved both ways."""
-        ways = np.concatenate([np.eye(len(names)), -np.eye(len(names))])
-        values = sweep(
-            path, ["GS6"], {name: first.inputs[name] * (1 + step * ways[:, i]) for i, name in enumerate(names)}
-        )
-        ahead, behind = values["GS6"][:, at].reshape(2, len(names), -1)
+        ahead, behind = swept([step, -step])
         return (ahead - behind) / (2 * step) / ((ahead + behind) / 2)
+
+    def five_points(step: float) -> Any:
+        p, r, s, t = swept([-step, step, -2 * step, 2 * step])
+        return (8 * (r - p) - (t - s)) / (12 * step) / ((4 * (p + r) - (s + t)) / 6)
 
     def elasticities(x: Mapping[str, Any]) -> Any:
         """By closed forms, of differences so wide that theirs tell the condition number."""
@@ -227,6 +236,7 @@ def _sensitivity(path: Path, hitch: Any, sweep: Callable[..., Any], sensitivity:
     ways = [
         Method("sensitivity", "", lambda: sensitivity(path, ["GS6"]).relative("GS6")[rows][:, at]),
         *family("differences by a sweep", powers(4, 8, 2), differences),
+        *family("differences of five points", powers(2, 4), five_points),
     ]
     return Job("8.4", "Sensitivity of the capacity to every input", truth, ways, kappa)
 

@@ -131,6 +131,8 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
     remains. There is no equilibrium where the load lies in a gap that the rays leave, such as tension on elements
     that carry compression only.
 
+    Stresses have the digits of the greatest one of the joint: of an element beside the neutral axis these are fewer.
+
     Parameters
     ----------
     y : float, shape (..., n)
