@@ -341,3 +341,12 @@ def test_fault_in_the_library_is_noticed_by_the_search(monkeypatch):
 def test_missing_word_is_noticed():
     silent = extreme.Outcome("", "", "", np.nan, np.nan, np.nan, np.nan, words="", wanted="no position closes")
     assert not silent.holds
+
+
+def test_what_a_rounded_position_costs_the_rates_costs_the_accelerations():
+    """A guide turns at 1e6 rad/s a millimetre from the pin, a thousand kilometres from the origin."""
+    far = {"A": 999987.8, "Ay": 1e-3, "B": 1e6, "By": 2.6e-4, "u": -0.67, "uy": 0.74, "w": 1.0, "wy": -6e-8}
+    case = extreme.group("PRP", WORKSHEETS, far | {"omega_B": 1e6})
+    outcomes = {o.result: o for o in extreme.outcomes(case)}
+    assert outcomes["ds_B"].condition > 1e8 and outcomes["dds_B"].condition > 1e8
+    assert lost(o for o in outcomes.values() if not o.holds) == []

@@ -77,15 +77,20 @@ class Kind(NamedTuple):
     def changes_by_rounding(self, x: Given) -> Numbers:
         """By how much results change in all for relative changes of what a function of the library hands to the next.
 
-        That are the rounded position and the rates, each beside the points and directions that the next one takes.
+        That are the rounded position and the rates, each beside the points and directions that the next one takes. What
+        is off in a position is so in the rates that come from it, and by them in the accelerations.
         """
         found, given = self.by_library(x), [name for name in self.given if name in _COMPLEX]
-        handed = {name: found[name] for name in (self.place, *self.rates)}
+        place = {self.place: found[self.place]} | {name: x[name] for name in given}
+        rates = {name: found[name] for name in self.rates}
 
         def following(y: Given) -> Any:
             return np.array([*self._by_library({**x, **{name: y[name] for name in given}}, y).values()])
 
-        _, moved = changes(following, {**{name: x[name] for name in given}, **handed})
+        _, with_rates = changes(following, place)
+        _, beside = changes(lambda y: following({**y, **rates}), place)
+        _, by_rates = changes(lambda y: following({**place, **y}), rates)
+        moved = np.maximum(with_rates, beside) + by_rates
         return {name: change for name, change in zip(found, moved, strict=True) if name != self.place}
 
     def exact(self, x: Given) -> Numbers:

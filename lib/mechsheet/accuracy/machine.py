@@ -22,7 +22,7 @@ from mechsheet.accuracy.precision import Job, Method
 from mechsheet.accuracy.pump import FORCES, LOADS, Points, exact_forces, forces, loads, pairs
 from mechsheet.accuracy.rivals import UNCHECKED
 from mechsheet.mechanics.equilibrium import PinReaction, Reaction, SlideReaction, solve_reactions
-from mechsheet.mechanics.joint import circular_joint
+from mechsheet.mechanics.joint import NODES, WEIGHTS, circular_joint
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rpr import rpr_reactions
 from mechsheet.mechanics.rrp import rrp_reactions
@@ -111,8 +111,7 @@ def _by_bodies(p: Points) -> Any:
 
 _BOLTS, _RADIUS, _MOMENT = 24, 0.6, 1e5  # the joint: number, m, N m
 _STRIPS = 30, 100, 300, 1000
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
-_GAUSS = (1 + _NODES) / 2, _WEIGHTS / 2  # on an arc of the length 1
+_GAUSS = (1 + NODES) / 2, WEIGHTS / 2  # on an arc of the length 1
 _CLOSES = "loses digits as the arc closes"
 
 

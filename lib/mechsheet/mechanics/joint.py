@@ -185,7 +185,18 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
     return Section(sigma / in_m2, sigma * area, (area + 0 * sigma) * in_m2, result.y_0 * unit_y, state)
 
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # exact to rounding for an arc up to the whole circle
+# Gauss's places and weights on -1..1, exact to rounding for an arc up to the whole circle. They stand here with all
+# their digits: numpy's weights are off by up to 63 roundings.
+_HALF_NODES = (
+    0.09501250983763744, 0.2816035507792589, 0.45801677765722737, 0.6178762444026438,
+    0.755404408355003, 0.8656312023878318, 0.9445750230732326, 0.9894009349916499,
+)  # fmt: skip
+_HALF_WEIGHTS = (
+    0.1894506104550685, 0.18260341504492358, 0.16915651939500254, 0.14959598881657674,
+    0.12462897125553388, 0.09515851168249279, 0.062253523938647894, 0.027152459411754096,
+)  # fmt: skip
+NODES = np.array([*(-x for x in reversed(_HALF_NODES)), *_HALF_NODES])
+WEIGHTS = np.array([*reversed(_HALF_WEIGHTS), *_HALF_WEIGHTS])
 
 
 @elementwise
@@ -240,10 +251,10 @@ def circular_joint(r: ArrayLike, phi: ArrayLike, M: ArrayLike, N: ArrayLike) -> 
 
     # Half of the compressed arc, cos alpha = c; theta runs over the arc from its middle.
     alpha = 2 * np.arctan2(np.sqrt(np.maximum(bend - axial, 0)), np.sqrt(np.maximum(bend + axial, 0)))
-    theta = alpha[..., None] * _NODES
+    theta = alpha[..., None] * NODES
     below = np.sin((alpha[..., None] + theta) / 2) * np.sin((alpha[..., None] - theta) / 2)
     pressed = np.minimum(bend + axial, 0)[..., None] - 2 * bend[..., None] * below
-    arc = pressed * _WEIGHTS * alpha[..., None] / (2 * np.pi)
+    arc = pressed * WEIGHTS * alpha[..., None] / (2 * np.pi)
     arc_N, arc_M = arc.sum(-1), -(arc * np.cos(theta)).sum(-1)
 
     mixed, rim = (alpha > 0) & (alpha < np.pi), alpha == np.pi
