@@ -740,3 +740,18 @@ def test_what_is_masked_is_not_solved():
     assert within.value.tolist() == pytest.approx([2, np.nan, 4], nan_ok=True)
     both = find(lambda x, y: (x + y - masked, x - y), x=1.0, y=1.0)
     assert both.value.x.tolist() == pytest.approx([2, np.nan, 8], nan_ok=True)
+
+
+@pytest.mark.parametrize(("given", "shown"), [(1j, "1j"), (np.array([2 + 1j]), "[2.+1.j]"), ("a", "'a'")])
+def test_what_is_no_real_number_is_named(given, shown):
+    words = re.escape(shown)
+    with pytest.raises(SheetError, match=f"^equals = {words} for rod must be real numbers$"):  # its real part, before
+        find(lambda x: x**2, 0.0, 10.0, equals=given, unknown="rod")
+    with pytest.raises(SheetError, match=f"^x = {words} must be real numbers$"):
+        find(lambda x, y: (x + y - 1, x - y), x=given, y=1.0)
+
+
+def test_of_no_problems_nothing_is_found_wherever_they_come_from():
+    none = np.zeros(0)
+    for found in (find(lambda x: x**2, 0.0, 1.0, equals=none), find(lambda x: x**2 - none, 0.0, 1.0)):
+        assert found.value.shape == found.reason.shape == (0,) and found.roots == ()

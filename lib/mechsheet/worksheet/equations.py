@@ -13,7 +13,7 @@ from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError, measured
+from mechsheet.worksheet.errors import SheetError, as_given, measured
 
 Start = ArrayLike | tuple[ArrayLike, ArrayLike]  # a guess, or the ends of an interval
 
@@ -155,6 +155,16 @@ def _targets(equals: Any, count: int) -> list[NDArray[Any]]:
     return [unmasked(v) for v in several]
 
 
+def real_numbers(value: ArrayLike, name: str, of: str = "") -> Array:
+    """What is given as numbers, NaN where it is masked; SheetError that names it where it is none."""
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError
+        return unmasked(value, float)
+    except (TypeError, ValueError):  # of numpy's: they do not say of what
+        raise SheetError(f"{name} = {as_given(value)}{of and f' for {of}'} must be real numbers") from None
+
+
 def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
     """Refuse unknowns that are not those which f takes."""
     parameters = inspect.signature(f).parameters.values()
@@ -168,7 +178,7 @@ def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
 def _place(name: str, value: Start, unit: str) -> Place:
     """Where an unknown is looked for: around a guess, or in an interval."""
     interval, factor = isinstance(value, tuple), units.parse(unit).factor
-    ends = [unmasked(v, float) for v in (value if isinstance(value, tuple) else (value,))]
+    ends = [real_numbers(v, name) for v in (value if isinstance(value, tuple) else (value,))]
     if interval and len(ends) != 2:
         raise SheetError(f"{name} needs a guess, or the two ends of its interval, not {len(ends)} numbers")
     for end in ends:

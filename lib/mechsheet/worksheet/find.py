@@ -13,12 +13,11 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.equations import Start
+from mechsheet.worksheet.equations import Start, real_numbers
 from mechsheet.worksheet.errors import SheetError, function, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
@@ -323,7 +322,8 @@ def sought(
     start = given["guess"] if lo is None or hi is None else given["lo"] / 2 + given["hi"] / 2
     beside = next((given[end] for end in ("lo", "hi") if end in given), start * _BESIDE)
     first = real_values(wanted, start.reshape(-1)[0])  # its shape shows what f closes over
-    shape = np.broadcast_shapes(void.shape, first.shape)
+    if 0 in (shape := np.broadcast_shapes(void.shape, first.shape)):
+        return _nothing(words, None if branch is None else on[()], shape)
     alone = shape if first.shape else ()
     places = np.stack([np.broadcast_to(x, alone) if alone else x.reshape(-1)[0] for x in (start, beside)])
     if not takes_arrays(of_one(partial(real_values, wanted)), places[None], alone):
@@ -390,7 +390,7 @@ def _nothing(words: _Words, branch: Any, shape: tuple[int, ...]) -> Found:
 
 def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     """The numbers that are given, as arrays; SheetError for the first that cannot be used."""
-    given = {name: unmasked(v, float) for name, v in values.items() if v is not None}
+    given = {name: real_numbers(v, name, words.unknown) for name, v in values.items() if v is not None}
     for name, v in given.items():
         if (bad := np.isinf(v)).any():
             unit = words.unit if name == "equals" else words.unknown_unit
