@@ -239,6 +239,40 @@ table_2, table_3 = table("2", "Few", s, t), table("3", "Many", m)"""
     assert all(column.least > 14 for column in proof.columns), [str(column) for column in proof.columns]
 
 
+POWERS = {  # equations of which powers are made, and their roots
+    "x ** 0.2 - g.F": lambda F: F**5,
+    "x ** (1 / 3) - g.F": lambda F: F**3,
+    "2 ** x - 100 * g.F": lambda F: mp.log(100 * F, 2),
+    "x ** x - g.F": lambda F: mp.exp(mp.lambertw(mp.log(F))),
+    "np.where(x > 2, (x - 2) ** 1.5, x - 2) + g.F / 3": lambda F: 2 - F / 3,
+}
+
+
+@pytest.mark.parametrize("text", POWERS)
+def test_a_root_of_powers_is_proved(text: str, tmp_path: Path) -> None:
+    """A fifth is no exact number, and an unknown exponent moves: neither had a slope.
+
+    The power of what is negative beyond a kink ended the proof in an error.
+    """
+    proof = sheet_of(tmp_path, f"x_found = find(lambda x: {text}, 0.5, 150)\nt = x_found.value  # [-] root")
+    (root,), (column,) = proof.roots, (column for column in proof.columns if column.name == "t")
+    exactly = POWERS[text](mpf(2.5))
+    off = abs(mpf(column.size) - exactly) / exactly
+    assert root.exists and column.least > 14 and (not off or column.least <= -mp.log10(off) + 1e-6)
+
+
+def test_where_some_positions_have_no_root_the_others_are_proved(tmp_path: Path) -> None:
+    """A root that was not found ended the proof in an error."""
+    lines = """
+y_found = find(lambda y: y * y - 1.5 + x, 0.1, 5)
+z = 2 * y_found.value  # [-] root
+table_2 = table("2", "Two", z)"""
+    proof = sheet_of(tmp_path, lines.strip())
+    (column,) = (column for column in proof.columns if column.name == "z")
+    assert (column.digits > 14).tolist() == [True, True, False, False, False] and column.none == 3
+    assert "no root is proved there" in column.why and not proof.check(9).passed
+
+
 def test_a_root_of_the_largest_or_least_of_several_is_proved(tmp_path: Path) -> None:
     lines = """
 s = linspace(0.4, 1.3, 9)  # [-] positions
@@ -379,6 +413,13 @@ def test_a_number_that_python_has_computed_is_off_by_its_rounding(text: str, tmp
         own_number = mpf(float(names["y"]))
         off = abs(own_number - COMPUTED[text](mpf(a)))
         assert not off or claimed.least <= -mp.log10(off / abs(own_number)) + 1e-6, a
+
+
+@pytest.mark.parametrize("before", ["c, d = 0.1, 3.0", "c: float = 0.1", "for c in (0.1,):\n    pass"])
+def test_a_name_that_is_bound_twice_is_none_of_numbers_alone(before: str, tmp_path: Path) -> None:
+    """Its last line alone was known, which names it itself: the proof ended in an error of endless calls."""
+    (column,) = sheet_of(tmp_path, f"{before}\nc = c * 3\ny = g.F * c  # [-] number").columns[-1:]
+    assert column.name == "y" and column.least > 14
 
 
 def line_of(path: str, text: str) -> int:

@@ -166,7 +166,7 @@ class _Problems:
         self.shapes = [node.shape for node in block.nodes]
 
     def start(self) -> list[list[Any]]:
-        return self.rows([_array(_balls, node.value.astype(object)) for node in self.block.nodes])
+        return self.rows([_known(_array(_balls, node.value.astype(object))) for node in self.block.nodes])
 
     def rows(self, values: Sequence[Values]) -> list[list[Any]]:
         """The unknowns or equations of each problem."""
@@ -288,14 +288,12 @@ def _move(roots: Iterable[Node], known: Mapping[Node, Values], moving: dict[Node
 def _moved(node: Node, known: Mapping[Node, Values], moving: Mapping[Node, Values]) -> Values:
     y, values = known[node], [known[operand] for operand in node.operands]
     motions = [moving.get(operand) for operand in node.operands]
-    if node.op == "pow":
-        if motions[1] is not None or not all(b.is_exact() for b in values[1].reshape(-1)):
-            return _nothing(y.shape)
-        lower = elementwise("pow", [_known(values[0]), np.asarray(values[1] - 1, object)])
-        return np.asarray(values[1] * lower * motions[0], object)
-    if node.op in SMOOTH:
+    if node.op == "pow" or node.op in SMOOTH:
         values = [_known(_array(_counted, v) if _is_condition(v) else v) for v in values]
-        parts = SMOOTH[node.op](_known(y), *values)
+        if node.op == "pow":
+            parts = _of_power(_known(y), values, motions[1] is not None)
+        else:
+            parts = SMOOTH[node.op](_known(y), *values)
         terms = [part * m for part, m in zip(parts, motions, strict=True) if m is not None]
         return np.asarray(np.broadcast_to(sum(terms[1:], terms[0]), y.shape), object)
     filled = [_filled(v.shape, arb(0)) if m is None else m for v, m in zip(values, motions, strict=True)]
@@ -318,6 +316,13 @@ def _moved(node: Node, known: Mapping[Node, Values], moving: Mapping[Node, Value
         case "reduce" if node.args[2] in ("max", "min"):
             return _of_extreme(node, _known(values[0]), filled[0])
     return _filled(y.shape, arb(0)) if node.value.dtype == bool else _nothing(y.shape)
+
+
+def _of_power(y: Values, values: Sequence[Values], by_exponent: bool) -> tuple[Values, ...]:
+    """Slopes of a power by its base, and by its exponent where that moves."""
+    a, b = values
+    by_base = b * _known(elementwise("pow", [a, np.asarray(b - 1, object)]))
+    return (by_base, y * _known(elementwise("log", [a]))) if by_exponent else (by_base, y)
 
 
 def _of_extreme(node: Node, values: Values, moved: Values) -> Values:

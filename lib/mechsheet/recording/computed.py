@@ -6,6 +6,7 @@
 import ast
 import builtins
 import operator
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain
@@ -69,14 +70,12 @@ class _Written:
     def __init__(self, graph: Graph, sheet: Worksheet) -> None:
         self.graph, self.common = graph, sheet.common
         self.lines = [*sheet.setup, *chain.from_iterable(cell.lines for cell in sheet.cells)]
-        self.names, twice = dict[str, ast.expr](), set[str]()
+        times = Counter(chain.from_iterable(map(bound, self.lines)))
+        self.names = dict[str, ast.expr]()
         for line in self.lines:
-            twice |= bound(line) & self.names.keys()
             match line:
-                case ast.Assign([ast.Name(name)], value):
+                case ast.Assign([ast.Name(name)], value) if times[name] == 1:
                     self.names[name] = value
-        for name in twice:
-            del self.names[name]
         self.made = dict[tuple[str, Callable[..., Any]], Any]()  # of each name once: one may stand in another twice
 
     def every(self) -> Iterator[tuple[Any, Quantity]]:
