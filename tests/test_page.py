@@ -2,6 +2,7 @@
 
 import json
 import re
+from contextlib import suppress
 from math import inf
 from pathlib import Path
 
@@ -150,6 +151,31 @@ def test_bad_input_is_told_at_its_place_and_the_inputs_stay(page):
     field.press("Enter")
     ready(page)
     expect(cell(page, "4.1", 1, 2)).to_have_text("129614")
+
+
+def test_no_file_is_made_of_a_page_that_is_not_computed_to_its_end(serve, browser, tmp_path):
+    """Its checks would be missing: the front sheet said that all pass where nothing was computed."""
+    sheet = tmp_path / "lever.py"
+    sheet.write_text(TEMPLATE.read_text(encoding="utf-8"), encoding="utf-8")
+    with new_page(browser) as page:
+        page.goto(serve("run", sheet))
+        page.get_by_text("2 of 2 checks pass").wait_for()
+        alive(page)
+        field = page.locator("td[data-input=F] input")
+        field.fill("-1")
+        field.press("Enter")
+        page.locator("ms-failed").first.wait_for()
+        for button, file in (("Excel workbook", "lever.xlsx"), ("Page in one file", "lever.html")):
+            told = f"{file} is not written: some cells did not run: g, phi, M, M_S, phi_found and 9 more missing"
+
+            def refused(button=button, told=told):
+                page.get_by_text(button).click()  # more than once, where it moves up meanwhile
+                with suppress(AssertionError):
+                    expect(page.locator(UNDER_THE_BUTTON)).to_have_text(told, timeout=1000)
+                    return True
+                return False
+
+            until(page, refused, f"{file} is made")
 
 
 def test_slider_moves_the_scheme(page):

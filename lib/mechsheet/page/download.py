@@ -8,7 +8,9 @@ from typing import Any, NamedTuple
 import marimo as mo
 
 from mechsheet.page.design import Design, Designing
+from mechsheet.page.of_file import refusing_another
 from mechsheet.page.study import Asked, Study
+from mechsheet.worksheet.errors import SheetError
 
 
 class File(NamedTuple):
@@ -37,10 +39,18 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
         mo.output.replace(shown())
 
     def pressed(file: File) -> bytes:
-        data, told[:] = file.made()
-        redraw()
+        told[:] = [f"{file.name} is not written"]
+        try:
+            refuse_another()  # whose lines a file would have, beside the numbers of this page
+            data, told[:] = file.made()
+        except SheetError as error:
+            told[:] = [f"{file.name} is not written: {error}"]
+            raise
+        finally:
+            redraw()
         return data
 
+    refuse_another = refusing_another(namespace)
     study, design = Study(asked, namespace, redraw), Design(designing, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
     return shown()

@@ -15,6 +15,7 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
 from mechsheet.document.numberless import numberless
+from mechsheet.page.needing import some
 from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.readers.infinite import lose
@@ -83,33 +84,35 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     from mechsheet.run import banding, studied  # on use: only a page and tolerances need it
 
     def book() -> tuple[bytes, list[str]]:
+        _refuse_part(namespace, worksheet)
         values = parts.values(namespace)
         recording, fit = _recorded(namespace, values)
         return _workbook(title, namespace, [*values, fit], values, recording), _not_followed(recording, [*values, fit])
 
     def page() -> tuple[bytes, list[str]]:
-        return html.page(sheet, inputs_of(namespace)).encode(), []
+        _refuse_part(namespace, worksheet)
+        return html.page(sheet(), inputs_of(namespace)).encode(), []
 
-    sheet = load(worksheet)
+    sheet = partial(load, worksheet)  # each time as it is then: in the editor its lines change
 
     def proof(done: Callable[[int, int], object]) -> str:
         from mechsheet.page import proved  # on use: only a proof needs balls
 
         known = registry(namespace)
         fields = [name for name, line in known.items() if not line.arguments and np.ndim(namespace.get(name, 0.0))]
-        shown = proof_of(namespace, sheet, record(namespace, sheet, whole=True, every=1), fields, done)
+        shown = proof_of(namespace, sheet(), record(namespace, sheet(), whole=True, every=1), fields, done)
         return proved.html(shown, _of(Table, parts.values(namespace)), known)
 
     def bands() -> Any:
         shown = parts.values(namespace)
-        return banding.bands_of(namespace, sheet, _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
+        return banding.bands_of(namespace, sheet(), _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
 
-    matter = partial(studied.matters, sheet, namespace)
+    matter = partial(studied.matters, sheet(), namespace)
     results = studied.results_of(namespace)
     asked = study.Asked([*results], bands, matter, proof, partial(_own, worksheet))
-    designing = design.Designing(results, partial(studied.designed, sheet, namespace))
+    designing = design.Designing(results, partial(studied.designed, sheet(), namespace))
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
-    if not html.studies(sheet):
+    if not html.studies(sheet()):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
     return download(*files, asked=asked, designing=designing, namespace=namespace)
 
@@ -129,9 +132,7 @@ def end(namespace: Mapping[str, Any]) -> None:
 def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) -> None:
     """Report a run, write its workbook where it has a title, and exit with 1 where a check or a Find fails."""
     ending.over()
-    missing = [name for name in results(worksheet, certain=True) if name not in namespace]
-    if missing:
-        raise SheetError(f"some cells did not run: {', '.join(missing)} missing")
+    _refuse_part(namespace, worksheet)
     declared = inputs.declared(type(inputs_of(namespace)))
     given = arguments.read(sys.argv[1:], declared)
     with arguments.usage():
@@ -172,6 +173,12 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
         say(f"written {path}", *_not_followed(recording, [*values, fit]), *_left_out(namespace, worksheet))
     if unsolved or not all(check.passed for check in checks):
         sys.exit(1)
+
+
+def _refuse_part(namespace: Mapping[str, Any], worksheet: Path) -> None:
+    """Raise SheetError where some cells have not run: what they show would be missing, and its checks not counted."""
+    if missing := [name for name in results(worksheet, certain=True) if name not in namespace]:
+        raise SheetError(f"some cells did not run: {', '.join(some(missing))} missing")
 
 
 def _numberless(namespace: Mapping[str, Any], worksheet: Path) -> Iterator[str]:
