@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 import threading
 from pathlib import Path
 
@@ -119,6 +120,9 @@ def test_a_name_that_its_cell_binds_again_can_be_edited() -> None:
     [
         ("n", "n = 2 (3)  ]", "unmatched"),
         ("n", "n := 2", "a definition is written =, not :="),
+        ("n", "lambda = 2", "the symbol λ is lamda"),
+        ("g.F", "lambda: float = 2", "the symbol λ is lamda"),
+        ("n", "n = M(30 deg)", r"invalid syntax \(is a"),  # and not that a comma is missing
         ("n", "typeset()", "a line is a name and what it is"),
         ("n", "n = 1\nk = 2", "a line is a name and what it is"),
         ("n", "# only words", "a line is a name and what it is"),
@@ -232,3 +236,26 @@ def test_what_computes_for_long_as_one_types_is_ended(monkeypatch: pytest.Monkey
         in_place._elsewhere(endless)
     running[0].join(20)
     assert not running[0].is_alive()
+
+
+def test_a_line_that_would_end_the_program_is_refused() -> None:
+    """The page's process ended while one typed exit."""
+    with pytest.raises(SheetError, match="ends the program"):
+        in_place._elsewhere(lambda: in_place._computed((), "k", "k = 1", "k = exit()", False, {"exit": sys.exit}))
+
+
+def test_what_is_typed_is_read_whatever_stands_before_it_and_warns_nowhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, recwarn: pytest.WarningsRecorder
+) -> None:
+    """A line that is pasted with its indentation could not be read; warnings of what was typed stayed at the title."""
+    path = tmp_path / "lever.py"
+    path.write_text(TEMPLATE, encoding="utf-8")
+    monkeypatch.setattr(notebook, "running", lambda: (lambda: (), {}))
+    names = cells.load(path).run(["g"], {}) | {"__file__": str(path)}
+    page = in_place.InPlace(names, lambda: None)
+    was = line(TEMPLATE, "g.F")
+    shown = page.done("type", "g.F", was, "\tF: float = 2.0  # [N] force ")["shown"]
+    assert "2 N" in shown
+    with pytest.raises(Exception, match="not callable"):
+        page.done("type", "g.F", was, "F: float = 2 (3)  # [N] force")
+    assert not recwarn.list

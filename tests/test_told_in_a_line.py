@@ -80,6 +80,9 @@ def test_a_name_that_is_to_be_imported_is_told_from_where() -> None:
         assert mistakes.undefined(name, known).endswith(f"in any cell (from {source} import {name})")
     assert mistakes.undefined("sinis", known).endswith("(did you mean sinus?)")
     assert mistakes.undefined("F", known, ["F"]).endswith("(did you mean g.F?)")
+    assert mistakes.undefined("e", known, ["e"]).endswith("(did you mean g.e?)")
+    assert mistakes.undefined("ln", known).endswith("(from numpy import log, the natural logarithm)")
+    assert mistakes.why(TypeError("unsupported operand type(s) for +: 'float' and 'str'"), ()).endswith("is no number)")
     assert mistakes.undefined("x·y", known).endswith(" (a product is written *)")
     assert mistakes.no_input("F·g", ["F"]) == "there is no input F·g (a product is written *)"
 

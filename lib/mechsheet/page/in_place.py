@@ -7,6 +7,7 @@ import ast
 import json
 import linecache
 import re
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
 from copy import deepcopy
@@ -51,6 +52,8 @@ class InPlace:
         self.path = Path(namespace["__file__"])
         self.answer: dict[str, Any] = {}
         self.field = mo.ui.text_area(on_change=self.asked)
+        # Of what is read as one types, by its name: the cell of a line that is written warns itself.
+        warnings.filterwarnings("ignore", "", SyntaxWarning, f"<unknown>|{_FILE}")
 
     @property
     def shown(self) -> mo.Html:
@@ -83,7 +86,7 @@ class InPlace:
         **parts: str,
     ) -> Any:
         """What the page is told of what it asked."""
-        text = self.path.read_bytes().decode()
+        text, new = self.path.read_bytes().decode(), new.strip()
         match do:
             case "open":
                 return {"line": line(text, name), "why": "" if self.is_taken(text) else _UNSAVED}
@@ -138,6 +141,8 @@ def _elsewhere(work: Callable[[], str]) -> str:
     def run() -> None:
         try:
             done.set_result(work())
+        except SystemExit:  # which would end the page's process
+            done.set_exception(SheetError("it ends the program: nothing would be computed"))
         except BaseException as error:
             done.set_exception(error)
 

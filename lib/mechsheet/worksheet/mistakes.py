@@ -45,8 +45,8 @@ def undefined(name: str, known: Iterable[str], inputs: Container[str] = ()) -> s
     """
     is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
     hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _imported(name) or _near(name, known)
-    hint = f" (did you mean g.{name}?)" if name in inputs else hint
     hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else f" ({_PRODUCT})" if _DOT in name else hint
+    hint = f" (did you mean g.{name}?)" if name in inputs else hint
     return f"the name {name} is not defined in any cell{hint}"
 
 
@@ -61,6 +61,9 @@ def _imported(name: str) -> str:
 _ELSEWHERE = {  # names of other languages
     "i": "the imaginary unit is 1j", "j": "the imaginary unit is 1j", "yes": "did you mean True?",
     "no": "did you mean False?", "true": "did you mean True?", "false": "did you mean False?", "π": "did you mean pi?",
+    "ln": "from numpy import log, the natural logarithm", "lg": "from numpy import log10", "e": "from numpy import e",
+    "log": "from numpy import log, the natural logarithm; that to base 10 is log10", "np": "import numpy as np",
+    "tg": "from numpy import tan", "arctg": "from numpy import arctan",
 }  # fmt: skip
 _DOT, _PRODUCT = "·", "a product is written *"  # which Python takes for a letter of the name
 
@@ -217,11 +220,14 @@ def unread(error: SyntaxError) -> str:
         return error.msg
     if function := _FUNCTION.match(text):
         return f"a function is written {function[1]} = lambda {function[2]}: .."
-    return error.msg + next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), "")
+    if hint := next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), ""):
+        return error.msg.removesuffix(". Perhaps you forgot a comma?") + hint  # two guesses are one too many
+    return error.msg
 
 
 _SEVERAL = "several values stand there: a decimal number has a point, not a comma"
 _HINTS = {
+    r"'str'|<U": "a text is no number",
     r"for \^|'bitwise_xor'": "a power is written **, not ^",
     r"'(int|float|complex|numpy\.\w+|Quantity)' object is not callable": "is a * missing before the bracket?",
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'|concatenate (list|tuple)": _SEVERAL,
@@ -244,6 +250,7 @@ _HINTS = {
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
 _FUNCTION = re.compile(r"\s*([^\W\d]\w*)\(([\w\s,]+)\)\s*:?=(?!=)")  # as Mathcad has it
 _MEANT = {  # by the line that cannot be read
+    r"^\s*lambda\s*(:[^=]*)?=": "lambda is a word of Python: the symbol λ is lamda",
     r"[·×⋅∙]": _PRODUCT,
     r"[−–]": "a minus is written -",
     r"[²³⁴]": "a power is written **",
