@@ -218,6 +218,21 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
         expect(written.locator(".ms-table:has-text('Table 1 ') tbody tr").last).to_contain_text("0.420")
 
 
+def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
+    """A screen reader said a number alone, and a line was opened by the pointer alone."""
+    field = editor.page.get_by_role("textbox", name="Mmax, N·m, greatest moment> 0")
+    field.press("F2")
+    area = editor.page.locator(".ms-box textarea")
+    expect(area).to_have_value("M_max: float = 300.0  # [N*m] greatest moment; > 0")
+    area.press("Escape")
+    expect(field).to_be_focused()
+    unit = editor.page.locator("#line-M_S ms-unit")
+    unit.press("F2")
+    expect(area).to_have_value("M_S = M(phi)  # [N*m] moment over the positions")
+    area.press("Escape")
+    expect(unit).to_be_focused()
+
+
 def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     page = editor.page
 

@@ -98,7 +98,7 @@
     }
     close();
     area.value = "";
-    const mine = (of = { place: host, name, was: "", below: false });
+    const mine = (of = { place: host, name, was: "", below: false, from: focused() });
     host.classList.add("ms-edited");
     typed.replaceChildren();
     const { line, why: told } = await ask({ do: "open", name });
@@ -118,10 +118,17 @@
   }
 
   function close() {
+    const from = of?.from;
     of?.place.classList.remove("ms-edited");
     of = undefined;
     area.readOnly = false;
     box.remove();
+    from?.focus(); // who works by keys goes on there
+  }
+
+  function focused(within = document) {
+    const found = within.activeElement;
+    return found?.shadowRoot?.activeElement ? focused(found.shadowRoot) : found;
   }
 
   // One question at a time: what was typed meanwhile is asked for then.
@@ -283,6 +290,15 @@
     if (input) return [row, `g.${input.dataset.input}`];
     return line?.id.startsWith("line-") ? [row, line.id.slice("line-".length)] : [];
   }
+
+  // F2 on a field, or on the unit of a formula, as in a cell of a spreadsheet.
+  document.addEventListener("keydown", (event) => {
+    const at = event.key === "F2" && event.target.closest?.(".ms-line, .ms-inputs tr");
+    const [row, name] = at ? clicked(at) : [];
+    if (!row) return;
+    event.preventDefault();
+    open(row, name);
+  });
 
   document.addEventListener("click", (event) => {
     const [row, name] = clicked(event.target);

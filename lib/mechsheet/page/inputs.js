@@ -67,6 +67,12 @@
     }
   }
 
+  // Symbol, unit and meaning beside a field.
+  function called(name) {
+    const beside = [...hostOf(name).closest("tr").cells].filter((cell) => !cell.dataset.input);
+    return beside.map((cell) => cell.textContent.trim()).filter(Boolean).join(", ");
+  }
+
   // What a field shows, however it came there; nothing of one that is not drawn yet.
   function words(name) {
     const field = fieldOf(name);
@@ -163,6 +169,7 @@
     // that shows something else was typed into before anything here listened.
     resume(tries = 100) {
       if (tries && !fields.every(({ name }) => fieldOf(name))) return setTimeout(() => this.resume(tries - 1), 100);
+      fields.forEach(({ name }) => ((fieldOf(name) ?? {}).ariaLabel = called(name))); // which a screen reader says
       const anew = fields.filter(({ name }) => !moved.has(name) && fieldOf(name) && words(name) === begun(name));
       const stale = anew.filter(({ name, said, text }) => ![said, text].includes(words(name)));
       if (!stale.length) return;
