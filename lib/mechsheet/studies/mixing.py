@@ -5,9 +5,12 @@ is above a limit is true of all where it is true of one. So arrays of many varia
 what is made of one without it holds for none of them, and neither does what is made of that.
 """
 
+import builtins
+import statistics
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from math import prod
 from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
@@ -21,11 +24,13 @@ from mechsheet.worksheet.system import minerr
 from mechsheet.worksheet.verdict import values_only
 
 COUNT = 43  # variants: hardly a field has as many positions, or a list as many rows
-_PASSED = str(Path(np.__file__).parent), __file__
+_NUMPY = Path(np.__file__).parent
+_PASSED = str(_NUMPY), str(_NUMPY.with_name("scipy")), statistics.__file__, __file__
 _FILLED = np.zeros, np.ones, np.full, np.empty  # which give arrays into which others are put
-_MADE = np.array, np.asarray, *_FILLED  # which give arrays of no other class
+_MADE = np.array, np.asarray, np.ascontiguousarray, np.fromiter, *_FILLED  # which give arrays of no other class
 _OF_SHAPES = np.ndim, np.size, np.shape
 _PYTHONS = {f.__name__: f for f in (max, min, sum, round, float, int)}  # which look at numbers, and give one
+_shape: Callable[[Any], tuple[int, ...]] = vars(np.ndarray)["shape"].__get__
 
 
 class _Looked(BaseException):
@@ -36,6 +41,8 @@ def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> 
     """Whether a wanted result of so many variants is made of all of them at once."""
     marked = {name: _several(x, sheet.path) for name, x in columns.items()}
     common = {name: _asking(held, sheet.path) for name, held in {**_PYTHONS, **sheet.common}.items()}
+    imported = {"__import__": lambda *of: _asking(__import__(*of), sheet.path)}  # by a cell itself
+    common["__builtins__"] = {**vars(builtins), **imported}
     names = [*map(base, want)]
     try:
         g: Any = inputs.instance(sheet.inputs, marked)
@@ -43,11 +50,21 @@ def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> 
             found = replace(sheet, common=common).run(names, {"g": g})
     except _Looked:
         return True
-    except Exception:  # others of these arrays have one too, or what is found of them is compared with variants alone
-        return False
+    except Exception:  # of these arrays alone, which tell nothing then, or of others too, which are compared elsewhere
+        return _runs(sheet, names, columns)
     mixed = any(_is_mixed(found.get(name)) for name in names)
     found.clear()  # its functions know it, so that its arrays would stay
     return mixed
+
+
+def _runs(sheet: Worksheet, names: Sequence[str], columns: Mapping[str, Any]) -> bool:
+    """Whether variants have no error together."""
+    try:
+        with values_only(), np.errstate(all="ignore"):
+            sheet.run(names, {"g": inputs.instance(sheet.inputs, columns)})
+    except Exception:
+        return False
+    return True
 
 
 class Several(np.ndarray):
@@ -58,14 +75,31 @@ class Several(np.ndarray):
 
     def __array_finalize__(self, like: Any) -> None:
         self.path, self.mixed = getattr(like, "path", ""), getattr(like, "mixed", False)
+        if isinstance(like, Several) and COUNT in _shape(like) and COUNT not in _shape(self):
+            self.mixed = True  # moved by a method of numpy's own
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *operands: Any, **how: Any) -> Any:
         made = getattr(ufunc, method)(*_plain(operands), **_plain(how))
         return self._kept(made, operands, how)
 
     def __array_function__(self, function: Any, _: Any, operands: Any, how: Any) -> Any:
+        if function in _OF_SHAPES and not how and len(operands) == 1 and isinstance(operands[0], Several):
+            return getattr(operands[0], function.__name__)
         made = function(*_plain(operands), **_plain(how))
         return made if function in _OF_SHAPES else self._kept(made, operands, how)
+
+    @property  # type: ignore[misc]  # nobody sets it
+    def shape(self) -> Any:
+        """What is some of all variants, as those above a limit, is as long as these make it."""
+        return _shape(self._looked() if self.mixed else self)
+
+    @property
+    def size(self) -> int:
+        return prod(_shape(self._looked() if self.mixed or COUNT in _shape(self) else self))
+
+    @property
+    def flat(self) -> Any:
+        return self.reshape(-1)
 
     def __setitem__(self, key: Any, values: Any) -> None:
         self.view(np.ndarray)[_plain(key)] = _plain(values)
@@ -76,6 +110,9 @@ class Several(np.ndarray):
 
     def __iter__(self) -> Iterator[Any]:
         return (self[i] for i in range(self.shape[0]))
+
+    def __complex__(self) -> complex:
+        return complex(self._looked())
 
     def __bool__(self) -> bool:
         return bool(self._looked())
@@ -90,14 +127,14 @@ class Several(np.ndarray):
         return int(self._looked().__index__())
 
     def __len__(self) -> int:
-        return len(self._looked() if self.shape[:1] == (COUNT,) else self.view(np.ndarray))
+        return len(self._looked() if self.mixed or COUNT in _shape(self)[:1] else self.view(np.ndarray))
 
     def _looked(self) -> Any:
         """The numbers, at which a line of the worksheet looks, or a function of the library."""
         frame: Any = sys._getframe(2)
         while frame and frame.f_code.co_filename.startswith(_PASSED):
             frame = frame.f_back
-        if frame and frame.f_code.co_filename == self.path and (self.mixed or self.shape[:1] == (COUNT,)):
+        if frame and frame.f_code.co_filename == self.path and (self.mixed or COUNT in _shape(self)):
             raise _Looked
         return self.view(np.ndarray)
 
@@ -108,7 +145,7 @@ class Several(np.ndarray):
         if not isinstance(made, np.ndarray | np.generic | int | float):
             return made
         marked: Several = np.asarray(made).view(Several)
-        lost = COUNT not in marked.shape and _is_any([self, *of], lambda x: COUNT in x.shape)
+        lost = COUNT not in _shape(marked) and _is_any([self, *of], lambda x: COUNT in _shape(x))
         marked.path, marked.mixed = self.path, lost or _is_mixed([self, *of])
         return marked
 
@@ -120,35 +157,39 @@ def _by_numpy(name: str) -> Any:
     return method
 
 
-for _name in ("argmax", "argmin", "cumsum", "cumprod", "dot", "item", "nonzero", "take", "tolist", "trace"):
+for _name in ("argmax", "argmin", "astype", "cumsum", "cumprod", "dot", "item", "nonzero", "take", "tolist", "trace"):
     setattr(Several, _name, _by_numpy(_name))
 
 
-class _Numpy(ModuleType):
-    """Numpy, with functions that keep the marks of what they put together."""
+class _Module(ModuleType):
+    """Numpy or this library, with functions that keep the marks of what they put together."""
 
-    def __init__(self, path: str) -> None:
-        super().__init__("numpy")
-        self._path = path
+    def __init__(self, module: ModuleType, path: str) -> None:
+        super().__init__(module.__name__)
+        self._module, self._path = module, path
 
     def __getattr__(self, name: str) -> Any:
-        return _asking(getattr(np, name), self._path)
+        return _asking(getattr(self._module, name), self._path)
 
 
 def _asking(held: Any, path: str) -> Any:
     """What a worksheet shares, such that it keeps the marks."""
-    if held is np:
-        return _Numpy(path)
+    if type(held) is ModuleType and held.__name__ in ("numpy", "mechsheet"):
+        return _Module(held, path)
     if any(held is each for each in _MADE):
         filled = any(held is each for each in _FILLED)
         return lambda *of, **how: _several(held(*_plain(of), **_plain(how)), path, [*of, how], filled)
     if held is find or held is minerr:
         return lambda *of, **how: held(*map(_unmixed, of), **{name: _unmixed(x) for name, x in how.items()})
-    if any(held is each for each in _PYTHONS.values()):
+    if any(held is each for each in (*_PYTHONS.values(), np.float64)):
 
         def of_mixed(*of: Any, **how: Any) -> Any:
-            return _several(np.asarray(held(*_plain(of), **how)), path, of) if _is_mixed(of) else held(*of, **how)
+            if not _is_mixed(of):
+                return held(*of, **how)
+            single = (x[()] if isinstance(x, np.ndarray) else x for x in _plain(of))
+            return _several(np.asarray(held(*single, **how)), path, of)
 
+        of_mixed.held = held  # type: ignore[attr-defined]  # which may be the kind of an array
         return of_mixed
     return held
 
@@ -177,6 +218,8 @@ def _plain(x: Any) -> Any:
         return x.view(np.ndarray)
     if type(x) in (tuple, list):
         return type(x)(map(_plain, x))
+    if type(x) is FunctionType:
+        return getattr(x, "held", x)
     return {name: _plain(each) for name, each in x.items()} if type(x) is dict else x
 
 
