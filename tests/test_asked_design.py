@@ -66,6 +66,15 @@ def test_a_goal_may_have_any_size(size, tmp_path):
     assert chosen["F"] == pytest.approx(2.0, rel=1e-6) and "refined by slopes" in told[-3]
 
 
+@pytest.mark.parametrize("size", [1e-9, 1e6, 1e9])
+def test_a_requirement_whose_limit_is_0_may_have_any_size(size, tmp_path):
+    """It was counted in Pa or in m: the conditions at the best design were said not to hold, or to leave it level."""
+    sheet = own(tmp_path, f"v = g.F + g.a / 2  # [-] goal\nw = {size} * (9 - g.F**2 - g.a**2)  # [-] needed")
+    chosen, told = asked_design.best(asked(sheet, "--vary=F=0..5", "--vary=a=0..5", "--need=w >= 0", "--best=max v"))
+    assert (chosen["F"], chosen["a"]) == pytest.approx((6 / 5**0.5, 3 / 5**0.5), rel=1e-6)
+    assert "held by w >= 0: to the first order none near it is better" in told[-2] and "is worse" in told[-2]
+
+
 def test_two_inputs_with_requirements_make_a_scene_that_passes(sheet, tmp_path, monkeypatch, capsys):
     options = ["--vary", "F=0..5", "--vary", "a=0.1..1", "--need", "w <= 1.75", "--best", "max p", "--n=4"]
     monkeypatch.setattr(sys, "argv", ["design", sheet.path, *options, f"--out={tmp_path}"])

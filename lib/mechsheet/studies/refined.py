@@ -59,11 +59,13 @@ class Problem(Protocol):
 class _Goal(NamedTuple):
     """The goal of a design, and what that of others is mostly off it by: its reserves are counted from it, in these.
 
-    The same for all designs, so that reserves and slopes change only where the goal does.
+    The same for all designs, so that reserves and slopes change only where the goal does; so are the ``sizes`` of the
+    requirements, in which theirs are counted.
     """
 
     start: float
     varies: float
+    sizes: list[float]
 
 
 class Slopes:
@@ -139,15 +141,24 @@ class Slopes:
 
 
 def _goal(problem: Problem, start: Mapping[str, float]) -> _Goal:
-    """The goal at the start, and its scale: the median of how far that of designs all over the bounds is off it."""
+    """The goal at the start, and its scale: the median of how far that of designs all over the bounds is off it.
+
+    The size of a requirement is its limit, or if that is 0 the median of its reserves there.
+    """
     random, variants = np.random.default_rng(_SEED), dict[str, Array]()
     for x, (low, high) in problem.bounds.items():
         spread = low + (high - low) * (random.permutation(_SAMPLES) + 0.5) / _SAMPLES
         variants[x] = np.append(start[x], spread)
     judged = problem.judge(variants)
     own, others = float(judged.goal[0]), judged.goal[1:]
-    off = np.abs(others[np.isfinite(others)] - own)
-    return _Goal(own, float(np.median(off if off.size else [0.0])) or abs(own) or 1.0)
+    sizes = [abs(need.limit) or (problem.asked.best and _median(need.reserve)) or 1.0 for need in judged.requirements]
+    return _Goal(own, _median(others - own) or abs(own) or 1.0, sizes)
+
+
+def _median(sizes: Array) -> float:
+    """Of numbers as far as there are any, by their magnitudes."""
+    known = np.abs(sizes[np.isfinite(sizes)])
+    return float(np.median(known)) if known.size else 0.0
 
 
 def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At:
@@ -195,10 +206,9 @@ def _evaluated(problem: Problem, design: Mapping[str, float], goal: _Goal) -> At
                 places.append((node, k, sign * way / part))
                 labels.append(text + (f" at position {k}" if nodes[name].size > 1 else ""))
 
-    for need in asked.needs:
-        limit = problem.limits[need]
-        sign, size = (1.0 if need.sign == ">=" else -1.0), abs(limit) or 1.0
-        add(need.name, sign, limit, size, not asked.best, need.text, need.end)
+    for need, size in zip(asked.needs, goal.sizes, strict=True):
+        sign = 1.0 if need.sign == ">=" else -1.0
+        add(need.name, sign, problem.limits[need], size, not asked.best, need.text, need.end)
     if asked.best:
         way, name = asked.best
         add(name, 1.0 if way == "max" else -1.0, 0.0, 1.0, True, f"{way} {name}")
