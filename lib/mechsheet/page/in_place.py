@@ -26,11 +26,11 @@ from mechsheet import units
 from mechsheet.document.markup import as_written
 from mechsheet.document.numberless import numberless
 from mechsheet.page import editor, fields, notebook, values
-from mechsheet.page.needing import needing, some
+from mechsheet.page.needing import needing
 from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, some
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.numbers import on_page

@@ -1,16 +1,16 @@
 """What in a worksheet needs a name that is to go: its sections, tables and figures, whatever lies between."""
 
 import ast
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from typing import NamedTuple
 
 from mechsheet.page.waiting import headings, short
 from mechsheet.worksheet import source
 from mechsheet.worksheet.depending import depending, read
+from mechsheet.worksheet.errors import some
 from mechsheet.worksheet.line_edit import declares
 
 _CAPTIONED = ("table", "figure")
-_LISTED = 5
 
 
 class _Line(NamedTuple):
@@ -42,14 +42,6 @@ def needing(text: str, gone: Collection[str], whole: bool = False) -> str:
             sections |= dict.fromkeys([] if shown or not section else [short(section)])
     *first, last = [*([f"section {', '.join(some(sections))}"] if sections else []), *some(others)] or [""]
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def some(places: Iterable[str]) -> list[str]:
-    """Places or names, of many the first."""
-    listed = list(places)
-    if len(listed) <= _LISTED + 1:
-        return listed
-    return [*listed[: _LISTED - 1], f"{listed[_LISTED - 1]} and {len(listed) - _LISTED} more"]
 
 
 def _read(line: ast.stmt) -> set[str]:

@@ -37,13 +37,18 @@ class Cell:
 
 
 def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
-    """What gives the cells of the calling cell's page as they are now, and the namespace in which they run."""
-    try:
-        from marimo._runtime.context import get_context  # on use: a version may lack it
+    """What gives the cells of the calling cell's page as they are now, and the namespace in which they run.
 
+    Raises Unlike where there is no page, too.
+    """
+    try:
+        from marimo._runtime.context import ContextNotInitializedError, get_context  # on use: a version may lack them
+    except ImportError as error:
+        raise Unlike(str(error)) from None
+    try:
         notebook: Any = get_context()
         graph, namespace = notebook.graph, notebook.globals
-    except (ImportError, AttributeError) as error:
+    except (ContextNotInitializedError, AttributeError) as error:  # there is no page, or it has none of these
         raise Unlike(str(error)) from None
 
     def cells() -> tuple[Cell, ...]:

@@ -15,7 +15,6 @@ from mechsheet import units
 from mechsheet.document import parts
 from mechsheet.document.left_out import left_out
 from mechsheet.document.numberless import numberless
-from mechsheet.page.needing import some
 from mechsheet.quantities.graph import Gap
 from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.readers.infinite import lose
@@ -33,7 +32,7 @@ from mechsheet.workbook.save import save
 from mechsheet.worksheet import index, inputs, mistakes, numbers, source
 from mechsheet.worksheet.cells import load, results
 from mechsheet.worksheet.check import Check, refuse_open, unkept
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, some
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of

@@ -31,6 +31,7 @@ class Waits(SheetError):
 OF_NUMBERS = (ValueError, ArithmeticError, LookupError, AssertionError, StopIteration, RuntimeError)
 
 _LONG = 60  # characters of what was given that an error shows
+_LISTED = 5  # of many places or names
 
 
 def cut(text: str) -> str:
@@ -40,6 +41,18 @@ def cut(text: str) -> str:
     ('P6', '9999999999.. (5000 characters)')
     """
     return text if len(text) <= _LONG else f"{text[:_LONG]}.. ({len(text)} characters)"
+
+
+def some(places: Iterable[str]) -> list[str]:
+    """Places or names, of many the first.
+
+    >>> some("abcdefgh")
+    ['a', 'b', 'c', 'd', 'e and 3 more']
+    """
+    listed = list(places)
+    if len(listed) <= _LISTED + 1:
+        return listed
+    return [*listed[: _LISTED - 1], f"{listed[_LISTED - 1]} and {len(listed) - _LISTED} more"]
 
 
 def nearest(name: str, known: Iterable[str], count: int = 1, cutoff: float = 0.6) -> list[str]:
