@@ -209,13 +209,8 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     sheet = load_workbook(tmp_path / "lever.xlsx", data_only=True)["1 Moment of the lever"]
     values = [cell.value for row in sheet.iter_rows() for cell in row if isinstance(cell.value, int | float)]
     assert max(v for v in values if v < 1) == pytest.approx(0.42)
-    with page.expect_download() as download:
-        page.get_by_text("Page in one file").click()
-    download.value.save_as(tmp_path / "lever.html")
-    with new_page(page.context.browser) as written:
-        written.goto((tmp_path / "lever.html").as_uri())
-        # Of the lines as they are now: it had the texts of these, and the numbers of those before.
-        expect(written.locator(".ms-table:has-text('Table 1 ') tbody tr").last).to_contain_text("0.420")
+    page.get_by_text("Page in one file").click()  # which would have the lines of the file, where nothing is saved
+    editor.expect("lever.html is not written: the file of this worksheet is another one than this page")
 
 
 def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):

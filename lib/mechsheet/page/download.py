@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import marimo as mo
 
 from mechsheet.page.design import Design, Designing
-from mechsheet.page.of_file import refusing_another
 from mechsheet.page.study import Asked, Study
 from mechsheet.worksheet.errors import SheetError
 
@@ -41,7 +40,6 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
     def pressed(file: File) -> bytes:
         told[:] = [f"{file.name} is not written"]
         try:
-            refuse_another()  # whose lines a file would have, beside the numbers of this page
             data, told[:] = file.made()
         except SheetError as error:
             told[:] = [f"{file.name} is not written: {error}"]
@@ -50,7 +48,6 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
             redraw()
         return data
 
-    refuse_another = refusing_another(namespace)
     study, design = Study(asked, namespace, redraw), Design(designing, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
     return shown()

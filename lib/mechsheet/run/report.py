@@ -78,7 +78,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         _script(title, namespace, worksheet)
         return None
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
-    from mechsheet.page import design, study  # on use: as above
+    from mechsheet.page import design, of_file, study  # on use: as above
     from mechsheet.page.download import File, download  # on use: as above
     from mechsheet.run import banding, studied  # on use: only a page and tolerances need it
 
@@ -89,6 +89,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return _workbook(title, namespace, [*values, fit], values, recording), _not_followed(recording, [*values, fit])
 
     def page() -> tuple[bytes, list[str]]:
+        of_file.refusing_another(namespace)()  # whose lines it would have, beside the numbers of this page
         _refuse_part(namespace, worksheet)
         return html.page(sheet(), inputs_of(namespace)).encode(), []
 
