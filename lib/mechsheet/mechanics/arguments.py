@@ -7,7 +7,7 @@ parameter as a single number, and a field in an array: a Find leaves NaN where i
 """
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import is_dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -104,20 +104,20 @@ def scalar_field(value: ArrayLike, name: str) -> Float:
 
 def vector(value: ArrayLike, name: str) -> Complex:
     """Complex numbers of any size, infinite ones too."""
-    if type(value) in _COMPLEX:
-        return np.asarray(value, np.complex128)
-    if type(value) is np.ndarray and value.dtype.char == "D":
-        return value
-    return _numbers(value, name, "iufc").astype(np.complex128, copy=False)
+    return _of_any_size(value, name, _COMPLEX, "iufc", "D")
 
 
 def reals(value: ArrayLike, name: str) -> Float:
     """Real numbers of any size, infinite ones too."""
-    if type(value) in _REAL:
-        return np.asarray(value, np.float64)
-    if type(value) is np.ndarray and value.dtype.char == "d":
+    return _of_any_size(value, name, _REAL, "iuf", "d")
+
+
+def _of_any_size(value: ArrayLike, name: str, single: Container[type], kinds: str, kind: str) -> NDArray[Any]:
+    if type(value) in single:
+        return np.asarray(value, kind)
+    if type(value) is np.ndarray and value.dtype.char == kind:
         return value
-    return _numbers(value, name, "iuf").astype(np.float64, copy=False)
+    return _numbers(value, name, kinds).astype(kind, copy=False)
 
 
 def direction(value: ArrayLike, name: str) -> tuple[Complex, Float]:

@@ -239,11 +239,11 @@ class Bands:
         self.look(nodes)
         most, rounding = np.abs(reserves[1:]).sum(0), _ROUNDING * float(np.max(np.abs(reserves[0]), initial=0.0))
         k = int(np.argmin(reserves[0] - most))
-        worst = np.sign(reserves[1:, k])
+        worst, sure = np.sign(reserves[1:, k]), self._is_sure(reserves)
         ends = ((place, self._there(nodes, place)) for place in (-worst, worst))
         for place, there in chain(zip(self.places, self.there, strict=True), ends):
             least = np.min(_reserves(residual, there))
-            if self._is_sure(reserves):
+            if sure:
                 if not least >= -rounding if passed else least > rounding:
                     return True
             elif not abs(least - np.min(reserves[0] + place @ reserves[1:])) <= _LITTLE * most[k] + rounding:

@@ -84,7 +84,7 @@ def _order(wanted: Sequence[Node]) -> list[Node]:
 
 def _turned(node: Node, moves: Sequence[Values], sizes: Mapping[Node, float]) -> bool:
     """Whether something is another one at those ends of the tolerances to which slopes move it most."""
-    first, *others = (m.reshape(len(m), *[1] * (len(node.shape) + 1 - m.ndim), *m.shape[1:]) for m in moves)
+    first, *others = _aligned(node, moves)
     apart = first - others[0] if others else first
     ends = np.unique(np.sign(apart.reshape(len(apart), -1)), axis=1).T[:_PLACES]
     for end in np.concatenate([ends, -ends]):
@@ -96,6 +96,11 @@ def _turned(node: Node, moves: Sequence[Values], sizes: Mapping[Node, float]) ->
         if not np.array_equal(there, node.value, equal_nan=node.value.dtype.kind == "f"):
             return True
     return False
+
+
+def _aligned(node: Node, moves: Sequence[Values]) -> list[Values]:
+    """Moves of the operands of a node, by inputs first and with as many axes as the node has behind."""
+    return [m.reshape(len(m), *[1] * (len(node.shape) + 1 - m.ndim), *m.shape[1:]) for m in moves]
 
 
 def _off(moves: Sequence[Values], which: int = 0) -> Values:
@@ -125,7 +130,7 @@ def _whole(node: Node, moves: Sequence[Values]) -> bool:
 
 def _mod(node: Node, moves: Sequence[Values]) -> bool:
     a, b = (x.value for x in node.operands)
-    p, q = (m.reshape(len(m), *[1] * (len(node.shape) + 1 - m.ndim), *m.shape[1:]) for m in moves)
+    p, q = _aligned(node, moves)
     turns, off = a / b, np.abs((p - q * (a / b)) / b).sum(0)
     return bool(np.any(np.isfinite(turns) & ~(np.floor(turns - off) == np.floor(turns + off))))
 

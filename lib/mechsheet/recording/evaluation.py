@@ -49,8 +49,9 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
 
 def _is_whole(sheet: Worksheet, given: Mapping[str, Any]) -> bool:
     """Whether ``g`` is all inputs, and not one of them, such as that of gravity."""
-    own = any(field.name == "g" for field in inputs.declared(sheet.inputs))
-    return "g" in given and sheet.inputs is not NoInputs and (not own or hasattr(type(given["g"]), "__inputs__"))
+    if "g" not in given or sheet.inputs is NoInputs:
+        return False
+    return hasattr(type(given["g"]), "__inputs__") or all(f.name != "g" for f in inputs.declared(sheet.inputs))
 
 
 def by_cells(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:

@@ -26,8 +26,8 @@ class _Judged(NamedTuple):
     check: Check
 
     def fits(self, sheet: Worksheet, g: Any) -> bool:
-        """Whether the lines go the same way for other inputs: what is not recorded may go any."""
-        if self.sheet is not sheet or self.ways != ways_of(g) or self.recording.gaps:
+        """Whether the lines go the same way for other inputs."""
+        if self.sheet is not sheet or self.ways != ways_of(g):
             return False
         given = leaves(g)
         looked = (guard.holds for guards in self.recording.looked.values() for guard in guards)
@@ -43,10 +43,11 @@ _KEPT = 8
 def units_of(namespace: Mapping[str, Any], sheet: Worksheet) -> Check:
     """The check of the units of a run's lines."""
     g = inputs_of(namespace)
-    known = next((each for each in reversed(_judged) if each.fits(sheet, g)), None)
-    if known is None:
-        recording = record_every_line(namespace, sheet)
-        check = dimensions(recording, sheet, namespace, registry(namespace)).check()
-        known = _Judged(sheet, ways_of(g), recording, check)
-        _judged[:] = [*_judged[1 - _KEPT :], known]
-    return known.check
+    known: _Judged | None = next((each for each in reversed(_judged) if each.fits(sheet, g)), None)
+    if known is not None:
+        return known.check
+    recording = record_every_line(namespace, sheet)
+    check = dimensions(recording, sheet, namespace, registry(namespace)).check()
+    if not recording.gaps:  # what is not recorded may go any way for other inputs
+        _judged[:] = [*_judged[1 - _KEPT :], _Judged(sheet, ways_of(g), recording, check)]
+    return check
