@@ -13,7 +13,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import IO
+from typing import IO, Any
 from unittest.mock import MagicMock
 
 import pytest
@@ -373,6 +373,24 @@ def test_what_a_command_runs_ends_with_it() -> None:
         started.terminate()
         assert started.stdout.read() == "", "the pipe is open as long as the program runs"
     assert started.returncode == 128 + signal.SIGTERM
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+def test_a_program_that_is_just_starting_ends_with_its_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command ended alone, and the program ran on."""
+    start = subprocess.Popen
+
+    def late(*args: Any, **how: Any) -> Any:
+        process = start(*args, **how)
+        signal.raise_signal(signal.SIGTERM)
+        return process
+
+    monkeypatch.setattr(subprocess, "Popen", late)
+    before = signal.signal(signal.SIGTERM, lambda *_: None)
+    try:
+        assert launcher.call([sys.executable, "-c", "import time; time.sleep(5)"]) == 128 + signal.SIGTERM
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")

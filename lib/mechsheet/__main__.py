@@ -318,18 +318,28 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     import signal  # on use: what runs in this process waits for no other
     import subprocess  # on use: as above
 
-    with subprocess.Popen(command, cwd=cwd, env=environ) as process:
-        ends = {
-            signal.SIGTERM: lambda *_: process.terminate(),  # else a server outlives its command
-            # Ctrl-C reaches the program too, and how to end is for it to say; an interruption here could lose its code.
-            signal.SIGINT: lambda *_: None,
-        }
-        kept = {number: signal.signal(number, end) for number, end in ends.items()}
-        try:
+    started, ended = list["subprocess.Popen[bytes]"](), list[int]()
+
+    def end(number: int, _: object) -> None:
+        ended.append(number)
+        for process in started:
+            process.terminate()
+
+    ends = {
+        signal.SIGTERM: end,  # else a server outlives its command; one may come as the program starts
+        # Ctrl-C reaches the program too, and how to end is for it to say; an interruption here could lose its code.
+        signal.SIGINT: lambda *_: None,
+    }
+    kept = {number: signal.signal(number, handler) for number, handler in ends.items()}
+    try:
+        with subprocess.Popen(command, cwd=cwd, env=environ) as process:
+            started.append(process)
+            if ended:
+                process.terminate()
             code = process.wait()
-        finally:
-            for number, handler in kept.items():
-                signal.signal(number, handler)
+    finally:
+        for number, handler in kept.items():
+            signal.signal(number, handler)
     return code if code >= 0 else 128 - code  # of a program that a signal ended, as shells have it
 
 
