@@ -13,7 +13,7 @@ from own_worksheet import own
 import mechsheet
 from mechsheet.accuracy.arithmetic import mp, mpc, mpf
 from mechsheet.mechanics.rrr import rrr
-from mechsheet.quantities.elementary import STEPS
+from mechsheet.quantities import elementary_rrr
 from mechsheet.readers.proof import Proved
 from mechsheet.recording.record import record
 from mechsheet.run.proving import proof_of
@@ -72,7 +72,7 @@ def test_the_digits_that_a_kernel_loses_are_not_proved(
     kernel, where = LOSING[name]
     true = pin(name, mpf(0.75))
     monkeypatch.setattr(kernel, "__module__", rrr.__module__)  # it stands in the library in place of that
-    monkeypatch.setitem(STEPS, kernel, STEPS[rrr])
+    monkeypatch.setattr(elementary_rrr, kernel.__name__, elementary_rrr.rrr, raising=False)
     least = dict[Any, float]()
     for form in (rrr, kernel):
         monkeypatch.setattr(mechsheet, "rrr", form, raising=False)

@@ -1,31 +1,35 @@
 """The library's functions in elementary steps, as the cells of a workbook compute them.
 
 Each function of the files beside this one does what the function of the same name in the mechanics does, with
-arithmetic, square roots and the functions of angles alone; `STEPS` tells which is whose. The library's own keep more
-digits near dead centres, check their arguments and serve the worksheets; these serve as the formulas that a workbook
-shows. Intermediate quantities carry the name, unit and meaning under which the workbook lists them.
+arithmetic, square roots and the functions of angles alone. The library's own keep more digits near dead centres, check
+their arguments and serve the worksheets; these serve as the formulas that a workbook shows. Intermediate quantities
+carry the name, unit and meaning under which the workbook lists them.
 """
 
 from collections.abc import Callable
-from inspect import isfunction
+from importlib import import_module
 from typing import Any
 
-from mechsheet.mechanics import crank, drive, equilibrium, joint, load, planar, prp, rpp, rpr, rrp, rrr
-from mechsheet.quantities import elementary_equilibrium, elementary_groups, elementary_joint, elementary_planar
+_FILES = {  # by those of the mechanics
+    "crank": "elementary_planar",
+    "drive": "elementary_drive",
+    "equilibrium": "elementary_equilibrium",
+    "joint": "elementary_joint",
+    "load": "elementary_group",
+    "planar": "elementary_planar",
+    "prp": "elementary_prp",
+    "rpp": "elementary_rpp",
+    "rpr": "elementary_rpr",
+    "rrp": "elementary_rrp",
+    "rrr": "elementary_rrr",
+}
 
 
-def _steps() -> dict[Callable[..., Any], Callable[..., Any]]:
-    files = elementary_planar, elementary_groups, elementary_joint, elementary_equilibrium
-    own = {name: f for file in files for name, f in vars(file).items()}
-    return {
-        f: own[name]
-        for home in (planar, load, crank, rrr, rrp, rpr, prp, rpp, drive, joint, equilibrium)
-        for name, f in vars(home).items()
-        if isfunction(f) and f.__module__ == home.__name__ and name in own and not name.startswith("_")
-    }
-
-
-STEPS = _steps()
-
-# Classes whose methods call functions of `STEPS`: a worksheet that is recorded gets them with the steps instead.
-GROUPS = frozenset({rrr.RRRGroup, rrp.RRPGroup, rpr.RPRGroup, prp.PRPGroup, rpp.RPPGroup})
+def in_steps(f: Callable[..., Any]) -> Callable[..., Any] | None:
+    """A function of the mechanics in elementary steps; None where it has no such form."""
+    room, _, stem = f.__module__.rpartition(".")
+    file = _FILES.get(stem) if room == "mechsheet.mechanics" and not f.__name__.startswith("_") else None
+    if file is None:
+        return None
+    form: Callable[..., Any] | None = getattr(import_module(f"{__package__}.{file}"), f.__name__, None)
+    return form

@@ -58,6 +58,10 @@ def link_point(A: Quantity, B: Quantity, z: Quantity) -> Quantity:
     return A + z * d / np.abs(d)
 
 
+def crank(O1: Quantity, r: Quantity, phi: Quantity) -> Quantity:
+    return O1 + r * (np.cos(phi) + 1j * np.sin(phi))
+
+
 def product(p: Quantity, q: Quantity, z: Quantity) -> Quantity:
     return (p + 1j * q) * z
 

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities.elementary import in_steps
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
@@ -334,13 +335,6 @@ def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) 
 
 
 @cache
-def _short() -> Mapping[Any, Callable[..., Any]]:
-    from mechsheet.quantities.elementary import STEPS  # on use: needs all of the mechanics
-
-    return STEPS
-
-
-@cache
 def body(f: Any) -> Callable[..., Any]:
     """A function of the mechanics whose own code takes recorded quantities."""
     raw = unwrap(f)
@@ -358,7 +352,7 @@ def _itself(f: Any) -> Callable[..., Any]:
         if always and f.__module__ != check.__name__:  # whose texts are looked at where they are used
             args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()
-        short = None if graph.bodies else _short().get(f)
+        short = None if graph.bodies else in_steps(f)
         return once(graph, short or body(f), args, kwargs) if not always else body(f)(*args, **kwargs)
 
     return function

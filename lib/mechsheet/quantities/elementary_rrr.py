@@ -1,0 +1,90 @@
+"""The RRR group in elementary steps."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mechsheet.mechanics.group import Reach
+from mechsheet.mechanics.load import Load
+from mechsheet.mechanics.rrr import RRRAcceleration, RRRReactions, RRRVelocity
+from mechsheet.quantities.elementary_group import carried, loaded_end, moved
+from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, step, whole
+
+
+def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity) -> Quantity:
+    d = step("d", "m", "from the first outer pin to the second", B - A)
+    LL = step("LL", "m**2", "squared distance of the outer pins", dot(d, d))
+    q = step("q", "-", "inner pin along the line of the outer pins, part of it", (LL + r_A**2 - r_B**2) / (2 * LL))
+    h = step("h", "-", "inner pin across that line, part of it", branch * np.sqrt(r_A**2 / LL - q**2))
+    return whole(A + (q + 1j * h) * d, d, h)
+
+
+def rrr_reach(A: Quantity, B: Quantity, r_A: Quantity) -> Reach:
+    L = np.abs(B - A)
+    return Reach(np.abs(L - r_A), L + r_A)
+
+
+def _turning(a: Quantity, b: Quantity, w: Quantity) -> tuple[Quantity, Quantity]:
+    D = step("D", "m**2", "determinant of the group", cross(a, b))
+    return dot(w, b) / D, dot(w, a) / D
+
+
+def rrr_velocity(
+    A: Quantity,
+    B: Quantity,
+    C: Quantity,
+    v_A: Quantity = 0,
+    v_B: Quantity = 0,
+    dr_A: Quantity = 0,
+    dr_B: Quantity = 0,
+) -> RRRVelocity:
+    a, b = C - A, C - B
+    v_A, v_B = moved(v_A, a, dr_A), moved(v_B, b, dr_B)
+    omega_A, omega_B = _turning(a, b, v_B - v_A)
+    return RRRVelocity(v_A + 1j * omega_A * a, omega_A, omega_B)
+
+
+def rrr_acceleration(
+    A: Quantity,
+    B: Quantity,
+    C: Quantity,
+    omega_A: Quantity,
+    omega_B: Quantity,
+    dr_A: Quantity = 0,
+    dr_B: Quantity = 0,
+    a_A: Quantity = 0,
+    a_B: Quantity = 0,
+    ddr_A: Quantity = 0,
+    ddr_B: Quantity = 0,
+) -> RRRAcceleration:
+    a, b = C - A, C - B
+    a_A, a_B = a_A + carried(a, omega_A, dr_A, ddr_A), a_B + carried(b, omega_B, dr_B, ddr_B)
+    w = step("w", "m/s**2", "acceleration that the turning of the links must make up", a_B - a_A)
+    epsilon_A, epsilon_B = _turning(a, b, w)
+    return RRRAcceleration(a_A + 1j * epsilon_A * a, epsilon_A, epsilon_B)
+
+
+def rrr_determinant(A: Quantity, B: Quantity, C: Quantity) -> Quantity:
+    return cross(C - A, C - B)
+
+
+def rrr_transmission_angle(A: Quantity, B: Quantity, C: Quantity) -> Quantity:
+    return angle_between(C - A, C - B)
+
+
+def rrr_condition(A: Quantity, B: Quantity, C: Quantity) -> Quantity:
+    r_A, r_B = np.abs(C - A), np.abs(C - B)
+    return (np.abs(A) + np.abs(B) + r_A + r_B) * np.maximum(r_A, r_B) / np.abs(cross(C - A, C - B))
+
+
+def rrr_reactions(
+    A: Quantity, B: Quantity, C: Quantity, loads_A: Sequence[Load] = (), loads_B: Sequence[Load] = ()
+) -> RRRReactions:
+    a, b = A - C, B - C
+    (F_A, T_A), (F_B, T_B) = loaded_end(loads_A, C, "A"), loaded_end(loads_B, C, "B")
+    F = F_A + F_B
+    t = -T_A / dot(a, a)
+    D = step("D", "m**2", "determinant of the group", cross(a, b))
+    n = step("n", "N/m", "force along the link next to A, part of its length", (cross(b, F) - T_B + t * dot(a, b)) / D)
+    R_A = (n + 1j * t) * a
+    return RRRReactions(R_A, -(R_A + F), -(R_A + F_A))
