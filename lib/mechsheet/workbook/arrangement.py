@@ -1,6 +1,6 @@
 """Where the recorded quantities stand in a workbook: which of them need a cell or a column, and on which sheet."""
 
-from collections import ChainMap, Counter
+from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import chain
@@ -133,17 +133,18 @@ class Arrangement:
             named = {*named, *(node for node in bottom_up(self._roots(), ()) if carries(node, infinite))}
         placed = [node for node in needing_place(self._roots(), named, self.places) if node not in self.places]
         waiting = {node: node for node in placed}
+        known = self.lines.keys() | self.places.keys()
         sections: dict[str, list[Line]] = {}
         for title, lines in self.recording.lines.items():
             for line in lines:
                 if waiting.pop(line.node, None):
-                    sections.setdefault(title, []).extend(self._parts_of(line, waiting))
+                    sections.setdefault(title, []).extend(self._parts_of(line, waiting, known))
                     sections[title].append(line)
         for stated, residual in checks:
             bound = Line(residual.limit, f"{called(stated)}_limit", residual.unit, f"limit: {stated}")
             parts = [Line(part, names.get(part, ""), residual.unit, f"residual: {stated}") for part in residual.parts]
             for line in [*parts, bound]:
-                steps = self._parts_of(line, waiting)
+                steps = self._parts_of(line, waiting, known)
                 own = [line] if waiting.pop(line.node, None) else []
                 if steps or own:
                     sections.setdefault("Residuals", []).extend([*steps, *own])
@@ -154,14 +155,13 @@ class Arrangement:
             elif node in sure:
                 symbol, meaning = f"{sure[node]}_sure", f"whether the closed form of {sure[node]} is what is found"
             sections.setdefault("Residuals", []).append(Line(node, symbol, "", meaning))
-        known = self.recording.sections
+        every = self.recording.sections
         titles = sections.keys() | self.recording.others.keys()
-        order = sorted(titles, key=lambda title: (known.index(title) if title in known else len(known), title))
+        order = sorted(titles, key=lambda title: (every.index(title) if title in every else len(every), title))
         return [self._section(title, sections.get(title, []), name) for title in order]
 
-    def _parts_of(self, line: Line, waiting: dict[Node, Node]) -> list[Line]:
+    def _parts_of(self, line: Line, waiting: dict[Node, Node], known: Set[Node]) -> list[Line]:
         """Steps of a line's formula that get a place, in the order of their calculation."""
-        known = ChainMap[Node, object](self.lines, self.places)  # type: ignore[arg-type]
         steps = [step for step in steps_of(line.node, written_of, known) if waiting.pop(step, None)]
         meaning = f"step of {line.symbol if line.text else line.meaning}"
         return [Line(step, f"{line.symbol}_{n}", "", meaning) for n, step in enumerate(steps, 1)]
@@ -222,21 +222,20 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
     of, what would make a formula too long or too deep, or stand in several of them, and what differs from row to row:
     numbers, and elements of several quantities.
     """
-    order: list[Node] = []
-    visited: set[Node] = set()
+    order, parts = list[Node](), dict[Node, tuple[Node, ...]]()
     stack = [(root, False) for root in roots]
     while stack:
         node, done = stack.pop()
         if done:
             order.append(node)
-        elif node not in visited:
-            visited.add(node)
+        elif node not in parts:
+            parts[node] = written_of(node)
             stack.append((node, True))
-            stack.extend((operand, False) for operand in written_of(node))
-    uses = Counter(operand for node in order for operand in written_of(node))
+            stack.extend((operand, False) for operand in parts[node])
+    uses = Counter(operand for node in order for operand in parts[node])
     placed, weight, depth = dict[Node, None](), dict[Node, int](), dict[Node, int]()
     for node in order:
-        own = 1 + sum(weight[operand] for operand in written_of(node)) if written_of(node) else 0
+        own = 1 + sum(weight[operand] for operand in parts[node]) if parts[node] else 0
         deep = nesting(node, depth)
         known = node in named or node.op in (*LEAVES, "rows", "found") or node in places
         repeated = uses[node] > 1 and own > _LIGHT and node.op not in ("take", "join")
@@ -253,7 +252,7 @@ def needing_place(roots: Iterable[Node], named: Set[Node], places: Container[Nod
         ):
             placed[node] = None
             own = deep = 0
-        if node.op in ("reduce", "at") and node.args[0].op != "input" and node.args[0] in written_of(node):
+        if node.op in ("reduce", "at") and node.args[0].op != "input" and node.args[0] in parts[node]:
             placed.setdefault(node.args[0])
         weight[node], depth[node] = own, deep
     return [node for node in placed if node.size]

@@ -294,10 +294,11 @@ def read(path: Path) -> Worksheet:
 
 def _title(tree: ast.Module) -> str | None:
     """Title of the workbook: the first argument of ``export``."""
-    for node in ast.walk(tree):
-        match node:
-            case ast.Call(ast.Name("export"), [ast.Constant(str(title)), *_]):
-                return title
+    for cell in functions(tree):
+        for node in source.nodes(cell):
+            match node:
+                case ast.Call(ast.Name("export"), [ast.Constant(str(title)), *_]):
+                    return title
     return None
 
 
@@ -324,7 +325,8 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
-        _refuse_deep(lines, path)
+        if len(source.nodes(node)) > _DEEPEST:
+            _refuse_deep(lines, path)
         section = [section, *(found for text in texts(lines) for found in _SECTION.findall(constant(text)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
