@@ -72,12 +72,14 @@ def without_name(sheet: Worksheet, known: Iterable[str], showing: frozenset[str]
 
 @lru_cache(maxsize=4096)
 def _shows_some(lines: Sequence[ast.stmt], showing: frozenset[str]) -> bool:
-    return any(_calls(line, showing) for line in lines)
+    return any(on_the_page(line, showing) for line in lines)
 
 
 @lru_cache(maxsize=4096)
 def on_the_page(statement: ast.stmt, showing: frozenset[str]) -> tuple[ast.stmt, ...]:
     """Statements of their own for the tables, figures and checks that a statement shows under no name."""
+    if not any(isinstance(node, ast.Name) and node.id in showing for node in source.nodes(statement)):  # as of most
+        return ()
     return tuple(ast.fix_missing_locations(ast.Expr(call)) for call in _calls(statement, showing))
 
 
