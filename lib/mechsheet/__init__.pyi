@@ -162,6 +162,9 @@ from mechsheet.studies.sweep import (
 from mechsheet.studies.tolerance import (
     tolerance as tolerance,
 )
+from mechsheet.worksheet.balance import (
+    balance as balance,
+)
 from mechsheet.worksheet.cells import (
     load as load,
     results as results,
@@ -169,7 +172,6 @@ from mechsheet.worksheet.cells import (
 from mechsheet.worksheet.check import (
     Check as Check,
     assembled as assembled,
-    balance as balance,
     check as check,
     check_slope as check_slope,
     closed_form as closed_form,

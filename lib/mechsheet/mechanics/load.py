@@ -11,7 +11,7 @@ from mechsheet.mechanics.arguments import Complex, Float, broadcasting, field, n
 from mechsheet.mechanics.planar import cross
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Load:
     """A force applied to a link at a point, and a couple; shapes (...) broadcast.
 

@@ -78,7 +78,7 @@ class Counted:
         return y.reshape(x.shape)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Roots:
     """Result for all columns c, branches x problems.
 

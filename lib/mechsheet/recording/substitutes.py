@@ -42,7 +42,8 @@ from mechsheet.worksheet import check, find, system, title
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.marimo_on_use import Marimo
 
-_ASKING = check.__name__, find.__name__, system.__name__  # modules that hand on what they are given, to be shown
+_STATING = check.__name__, "mechsheet.worksheet.balance"  # modules whose texts are looked at where they are used
+_ASKING = *_STATING, find.__name__, system.__name__  # modules that hand on what they are given, to be shown
 _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _GONE_THROUGH = (GeneratorType, map, filter)  # once, to whoever asks
@@ -349,7 +350,7 @@ def _itself(f: Any) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
             return f(*args, **kwargs)
-        if always and f.__module__ != check.__name__:  # whose texts are looked at where they are used
+        if always and f.__module__ not in _STATING:
             args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()
         short = None if graph.bodies else in_steps(f)

@@ -40,7 +40,7 @@ class Cell(NamedTuple):
     closing: bool = False  # whether it has an essential check, such as that a group closes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Worksheet:
     """Cells of a worksheet file, the names that all of them see (imports, the class of the inputs), and its title."""
 

@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.differences import derivative
-from mechsheet.mechanics.equilibrium import Reaction, left_over
-from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, texts
@@ -260,26 +258,6 @@ def judged(
         reason = "what is compared is 0, and so is any part of it: without of= the limit is a number of its own"
     agreement = bool(np.isfinite(size))
     return _state(Check(name, residual, limit / factor, unit, reason, agreement=agreement, at_least=at_least))
-
-
-def balance(
-    what: str,
-    loads: Sequence[Sequence[Load]],
-    reactions: Sequence[Reaction],
-    limit: float,
-    force: ArrayLike,
-    length: ArrayLike,
-) -> tuple[Check, Check]:
-    """Check that loads and reactions hold each body in equilibrium: what is left of forces [N] and of moments [N m].
-
-    ``loads`` and ``reactions`` are those of `left_over`; ``limit`` is the part of the ``force`` [N], and of it with an
-    arm of the ``length`` [m], that may be left; ``what`` names the bodies.
-    """
-    left = left_over(loads, reactions)
-    return (
-        check(f"equilibrium of forces, {what}", left.F, limit, "N", of=force),
-        check(f"equilibrium of moments, {what}", left.M, limit, "N*m", of=np.multiply(force, length)),
-    )
 
 
 def check_slope(

@@ -33,7 +33,7 @@ class Entry(NamedTuple):
     line: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Index(Shown):
     """Lines by the numbers of the printed formulas; tables, figures and programs; lines that the document has wrong."""
 

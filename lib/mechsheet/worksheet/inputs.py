@@ -413,7 +413,7 @@ def read(cls: type[T], form: Any) -> T:
     return g
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Used(Shown):
     """The values that a worksheet really uses, shown in their display units."""
 

@@ -111,7 +111,7 @@ class _Shown(NamedTuple):
                 yield name
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Written:
     """What figures and tables show, and the names that each name is bound by.
 

@@ -29,7 +29,7 @@ _DECIMALS = {
 MARKED = 60  # points of a curve that are marked one by one; more of them hide the line
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Column:
     """One quantity over the rows of a table: its symbol, display unit, meaning and values in that unit.
 
@@ -77,7 +77,7 @@ class Column:
         return "General" if self.unlike else numbers.fixed(0, self.decimals) + ("E+00" if self.power else "")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table(Shown):
     """A numbered table; all columns have the same length, the first ones of whole numbers name the rows.
 
@@ -110,7 +110,7 @@ class Table(Shown):
         return pd.DataFrame({f"{c.symbol} [{c.unit}]" if c.unit else c.symbol: c.values for c in self.columns})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Figure(Shown):
     """A numbered line chart of some columns over another; ``marks`` are labelled positions on the x axis."""
 

@@ -16,7 +16,7 @@ class Note(NamedTuple):
     mistake: bool = True
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Title(Shown):
     """Title block: what the worksheet is about, its file, the day, the mistakes and the tools of the editor."""
 
@@ -27,7 +27,7 @@ class Title(Shown):
     tools: tuple[Any, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Caption(Shown):
     """Number and title of a drawing, below it; those of a chart or a table stand with it."""
 
@@ -40,7 +40,7 @@ def caption(number: str, title: str) -> Caption:
     return Caption(number, title)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SideBySide(Shown):
     """Columns of what is shown: ``row`` of them share each row, of 0 as many as find room."""
 
@@ -53,7 +53,7 @@ def side_by_side(*shown: Any, row: int = 0) -> SideBySide:
     return SideBySide(tuple(each if isinstance(each, tuple) else (each,) for each in shown), row)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mark(Shown):
     """A moving position in SI: it is marked in every chart over the quantity of that name."""
 
@@ -65,7 +65,7 @@ def mark(**positions: Any) -> Mark:
     return Mark(tuple(positions.items()))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Slider(Shown):
     """A control by its range, step and position, all in ``unit``; without a step it rests at any position."""
 
@@ -99,7 +99,7 @@ def slider(
     return page().slider(made) if sys._getframe(1).f_globals.get("__name__") == "__main__" else made
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Player(Shown):
     """A slider that plays: to and fro, or ``turning`` always on, from its end to its beginning."""
 

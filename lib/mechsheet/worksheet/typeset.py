@@ -153,7 +153,7 @@ class Numbers:
         return frozenset(name for name in names if np.ndim(self.namespace.get(name, ())) == 0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Typeset(Shown):
     """Lines of a cell and their values, shown as symbol = formula = value, unit, meaning."""
 
