@@ -303,9 +303,12 @@ class _Digits:
         moves = {part: share * part.value for part, share in adjoints(node, largest).items()}
         parts = [np.abs(m) for m in (*moves.values(), *(part.value for part in _addends(node)))]  # some move nothing
         made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in parts)
-        held = _HELD * sum(_held(node, largest, part, m, made) for part, m in moves.items() if part.op == "input")
-        if not all(x is not NONE and x.is_finite() and abs(x) <= max(held, made * _ZERO) for x in found.flat):
-            return None
+        given = {part: m for part, m in moves.items() if part.op == "input"}
+        if not _within(found, made * _ZERO):
+            if not _within(found, max(made * _ZERO, _HELD * sum(map(_most, given.values())))):
+                return None
+            if not _within(found, _HELD * sum(_held(node, largest, part, m, made) for part, m in given.items())):
+                return None
         digits = _digits(found, shown.own, shown.factor, made / shown.factor)
         part = numbers.significant(shown.size * shown.factor / made, 1)
         why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
@@ -353,6 +356,14 @@ _SUMS = frozenset(("add", "sub", "neg", "abs", "max", "min", "take", "join", "re
 _EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is taken"}
 
 
+def _within(balls: Values, size: float) -> bool:
+    return all(x is not NONE and x.is_finite() and bool(abs(x) <= size) for x in balls.flat)
+
+
+def _most(moves: Values) -> float:
+    return float(np.nansum(np.abs(moves)))
+
+
 def _held(node: Node, element: int, part: Node, moves: Values, made: float) -> float:
     """By how much an input moves a number; 0 of one that is no float, or moves it elsewhere than where it is alone.
 
@@ -363,9 +374,9 @@ def _held(node: Node, element: int, part: Node, moves: Values, made: float) -> f
     try:
         there = elsewhere.numbers([node], {part: part.value * (1 + _NEAR)})[node]
     except Exception:  # of an input that has no other value
-        return float(np.nansum(np.abs(moves)))
+        return _most(moves)
     moved = (there - node.value).reshape(-1)[element] / _NEAR
-    off, most = float(abs(moved - np.nansum(moves))), float(np.nansum(np.abs(moves)))
+    off, most = float(abs(moved - np.nansum(moves))), _most(moves)
     return most if off <= most / 2 + made * _NOISE else 0.0
 
 
