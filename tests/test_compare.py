@@ -101,6 +101,24 @@ def test_the_file_as_it_is_now_is_a_state_and_differences_need_no_power_of_ten(b
     assert "(+9900 %)" in told and not re.search(r"[(+-]\d\S*e[+-]\d", told)
 
 
+def test_words_that_differ_are_told(bolt, monkeypatch, capsys) -> None:
+    """A meaning, a title, and of a paragraph the place, whatever stands before it; a number in it is no word."""
+    text, long = bolt.read_text(encoding="utf-8"), "It holds what it has to. " * 9
+    for word, meaning in (("usual", "use"), ("rare", "part that is used")):
+        shown = f'    """{long}It is {word}.\n\n    The rest."""\n    typeset(f"{word} {{g.F}} N")\n'
+        own = text.replace("    typeset()\n", shown).replace("] use\n", f"] {meaning}\n")
+        bolt.with_name(f"{word}.py").write_text(own.replace('f"Use,', f'f"{word.title()},'), encoding="utf-8")
+    code, out, err = compared(bolt, monkeypatch, capsys, "usual.py", "rare.py")
+    assert (code, err) == (1, "") and out.splitlines() == [
+        "meanings:",
+        "  U: use -> part that is used",
+        "  table 1: Usual, Bridge 7 -> Rare, Bridge 7",
+        "paragraphs:",
+        "  text: .. has to. It is usual. -> .. has to. It is rare.",
+        "  text: f'usual {g.F} N' -> f'rare {g.F} N'",
+    ]
+
+
 def test_where_nothing_differs_the_exit_code_is_0(bolt, monkeypatch, capsys) -> None:
     assert compared(bolt, monkeypatch, capsys, "HEAD", "plain.toml")[:2] == (0, "nothing differs\n")
 

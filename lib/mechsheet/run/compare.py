@@ -6,6 +6,7 @@ worksheet's file as it is now.
 
 import ast
 import io
+import re
 import subprocess
 import sys
 import tarfile
@@ -13,8 +14,9 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from difflib import SequenceMatcher
 from functools import cache, partial
-from itertools import chain
+from itertools import chain, zip_longest
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -28,7 +30,7 @@ from mechsheet.run import arguments
 from mechsheet.run.ending import say, watch
 from mechsheet.run.silent import silently
 from mechsheet.workbook.checks_sheet import verdict
-from mechsheet.worksheet import inputs, mistakes, numbers, results
+from mechsheet.worksheet import inputs, mistakes, numbers, results, source
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check, unkept
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, cut
@@ -37,7 +39,8 @@ from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
-from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.table import Column, Figure, Table
+from mechsheet.worksheet.typeset import typeset
 
 _SAME = 1e-12  # of the greatest value of a result: what differs by less is rounding
 _ZERO = 1e-13  # of the greatest value of its dimension: a result that is less may be zero but for rounding
@@ -45,6 +48,8 @@ _DRAWS = 4  # of inputs off by some roundings, which moves what is zero but for 
 _ROUNDINGS = 64  # of an input at most
 _ALIKE = 10  # times a limit that is a part of something: more is another part
 _CHECK = "check "  # before the name of what one compares
+_BEFORE = 12  # characters that are shown before what differs in a paragraph
+_GAP = re.compile(r"\n\s*\n")  # between paragraphs
 _AS_MUCH = 16  # times what these move it by: roundings of another kind may leave as much
 
 
@@ -58,10 +63,15 @@ class State(NamedTuple):
     shaken: Callable[[], dict[str, float]] | None = None  # how much roundings of the inputs move numbers, in SI
     texts: Mapping[str, str] = MappingProxyType({})
     checks: Mapping[str, Check] = MappingProxyType({})
+    meanings: Mapping[str, str] = MappingProxyType({})  # of inputs and lines; titles of tables and figures
+    prose: Sequence[tuple[str, str]] = ()  # paragraphs, each with the section in which it stands
 
 
 class Change(NamedTuple):
-    """What changed: an input, a formula, a number, a text, a check; empty where there is none, and by how much."""
+    """What changed: an input, a formula, a number, a text, a check, its words; empty where there is none, by how much.
+
+    Of prose what is written, whatever numbers stand in it.
+    """
 
     kind: str
     name: str
@@ -163,7 +173,28 @@ def _of(sheet: Worksheet, scene: Scene) -> State:
         partial(_shaken, sheet, g, shown),
         {name: cut(text) for name, text in _texts(names, sheet.results)},
         {check.name: check for check in judged},
+        dict(_meanings(type(g), names)),
+        list(_prose(sheet)),
     )
+
+
+def _meanings(declared: type, names: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    yield from ((field.name, field.meaning) for field in inputs.declared(declared))
+    yield from ((name, line.meaning) for name, line in registry(names).items())
+    for value in parts.values(names):
+        if isinstance(value, Table | Figure):
+            yield parts.called(value), value.title
+
+
+def _prose(sheet: Worksheet) -> Iterator[tuple[str, str]]:
+    for cell in sheet.cells:
+        calls = (node for line in cell.lines for node in source.nodes(line) if isinstance(node, ast.Call))
+        beside = (call.args for call in calls if isinstance(call.func, ast.Name) and call.func.id == typeset.__name__)
+        for text in chain(source.texts(cell.lines), *beside):
+            if not isinstance(text, ast.Constant | ast.JoinedStr):
+                continue
+            written = text.value if isinstance(text, ast.Constant) else ast.unparse(text)
+            yield from ((cell.section, " ".join(part.split())) for part in _GAP.split(str(written)) if part.strip())
 
 
 def _shaken(sheet: Worksheet, g: Any, own: Mapping[str, Displayed]) -> dict[str, float]:
@@ -283,6 +314,20 @@ def changes(old: State, new: State) -> Iterator[Change]:
     for name in dict.fromkeys([*old.verdicts, *new.verdicts]):
         if old.verdicts.get(name) != new.verdicts.get(name):
             yield Change("verdict", name, old.verdicts.get(name, ""), new.verdicts.get(name, ""))
+    for name in (name for name in old.meanings if name in new.meanings):
+        if old.meanings[name] != new.meanings[name]:
+            yield Change("meaning", name, old.meanings[name], new.meanings[name])
+    for kind, i, j, k, m in SequenceMatcher(None, old.prose, new.prose, autojunk=False).get_opcodes():
+        for before, after in zip_longest(old.prose[i:j], new.prose[k:m], fillvalue=("", "")):
+            if kind != "equal":
+                said = _from_where_they_differ(before[1], after[1])
+                yield Change("paragraph", after[0] or before[0] or "text", *said)
+
+
+def _from_where_they_differ(old: str, new: str) -> tuple[str, str]:
+    same = next((n for n, (a, b) in enumerate(zip(old, new, strict=False)) if a != b), 0)
+    begin = old.rfind(" ", 0, max(0, same - _BEFORE)) + 1
+    return cut(f"{'.. ' if begin else ''}{old[begin:]}"), cut(f"{'.. ' if begin else ''}{new[begin:]}")
 
 
 def _agree(old: Check, new: Check) -> bool:
