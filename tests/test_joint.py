@@ -220,6 +220,45 @@ def test_real_numbers(spread, away):
         assert np.allclose(neutral_axis(y, A_t, A_c, M, N).force, true, rtol=0, atol=4e-15 * np.max(np.abs(true)))
 
 
+def plane_section(y, A, M, N):
+    """Stresses N / F + (M - N y_c) (y - y_c) / I_c of exact numbers."""
+    F = sum(A)
+    y_c = sum(a * v for a, v in zip(A, y, strict=True)) / F
+    slope = (M - N * y_c) / sum(a * (v - y_c) ** 2 for a, v in zip(A, y, strict=True))
+    return [N / F + slope * (v - y_c) for v in y]
+
+
+def worst_of_elements(y, A, M, N, sigma):
+    """Greatest error of a stress in roundings of what its own condition allows: each input moved by a part of it."""
+    given, n = [Fraction(float(v)) for v in (*y, *A, M, N)], len(y)
+    true = plane_section(given[:n], given[n:-2], *given[-2:])
+    allowed, part = [abs(v) for v in true], Fraction(1, 10**20)
+    for k, v in enumerate(given):
+        moved = [*given[:k], v * (1 + part), *given[k + 1 :]]
+        changed = plane_section(moved[:n], moved[n:-2], *moved[-2:])
+        allowed = [c + abs(a - b) / part for c, a, b in zip(allowed, changed, true, strict=True)]
+    return max(abs(Fraction(float(s)) - t) / c for s, t, c in zip(sigma, true, allowed, strict=True)) / 2**-53
+
+
+@pytest.mark.parametrize("decades", [1, 6])
+def test_every_stress_keeps_the_digits_of_its_own_condition(decades):
+    """Levels and areas over some decades: that of an element beside the axis had those of the greatest one only."""
+    rng = np.random.default_rng(decades)
+    for _ in range(40):
+        n = rng.integers(2, 7)
+        y = rng.choice([-1, 1], n) * 10 ** rng.uniform(-decades, 0, n)
+        A_t, A_c = 10 ** rng.uniform(-decades, 0, (2, n))
+        M, N = rng.normal(size=2) * 10 ** rng.uniform(-decades, decades, 2)
+        found = neutral_axis(y, A_t, A_c, M, N)
+        assert worst_of_elements(y, found.area, M, N, found.sigma) < 8
+
+
+def test_levels_too_near_for_a_section_are_none():
+    """What carries lies on levels whose squares are below all floats: no section, not one without load."""
+    found = neutral_axis([0.0, 1e-200, 1.0], [1.0, 1.0, 0.0], [1.0, 1.0, 0.0], 1.0, 1.0)
+    assert found.state == "no equilibrium" and np.isnan(found.sigma).all()
+
+
 @examples(50)
 @given(elements, st.integers(0, 6), st.sampled_from([-1.0, 1.0]), st.floats(1e-3, 1e3))
 def test_axis_through_an_element(section, at, side, scale):

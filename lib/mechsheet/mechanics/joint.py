@@ -61,6 +61,9 @@ def bending(y: ArrayLike, A: ArrayLike, M: ArrayLike, N: ArrayLike) -> Bending:
 
     .. math:: \sigma = \frac{N}{F} + \frac{(M - N y_c)(y - y_c)}{I_c}, \quad y_0 = y_c - \frac{N I_c}{F (M - N y_c)}
 
+    Where these two cancel, nearer to the neutral axis than to the centroid, levels are counted from the axis: the
+    stress there is nothing but what its rounding leaves, so that every element has the digits of its own condition.
+
     Parameters
     ----------
     y, A : float, shape (..., n)
@@ -83,15 +86,19 @@ def bending(y: ArrayLike, A: ArrayLike, M: ArrayLike, N: ArrayLike) -> Bending:
     y, A, M = y / unit_y[..., None], A / unit_A[..., None], M / unit_y
     largest = np.take_along_axis(y, A.argmax(-1)[..., None], -1)  # levels from here: one level gives I_c = 0 exactly
     F = A.sum(-1)
-    above = (A * (y - largest)).sum(-1, keepdims=True) / F[..., None]
-    lever = y - largest - above
+    lever = y - largest
+    lever = lever - (A * lever).sum(-1, keepdims=True) / F[..., None]
     S = sum_of_elements(A * y)
     y_c = S / F
     second = (A * lever**2).sum(-1)
     I_c = np.where(second > 0, second, np.nan)
     M_c = M - N * y_c
-    sigma = (N / F)[..., None] + (M_c / I_c)[..., None] * lever
-    y_0 = y_c - N * I_c / (F * M_c)
+    y_0 = y_c - N / M_c * (I_c / F)
+    t, moments = y - y_0[..., None], A * (M[..., None] - N[..., None] * y)
+    slope, axis = moments.sum(-1) / (F * I_c), (moments * t).sum(-1) / (F * I_c)
+    uniform = (N / F)[..., None] + (M_c / I_c)[..., None] * lever
+    nearer = t * (2 / (y_0 - y_c))[..., None] > -1  # to the axis than to the centroid
+    sigma = np.where(nearer, slope[..., None] * t - axis[..., None], uniform)
     F, S, I_c = F * unit_A, S * unit_A * unit_y, I_c * unit_A * unit_y * unit_y
     section = np.broadcast_arrays(F, S, y_c * unit_y, I_c, M_c * unit_y, y_0 * unit_y)
     return Bending(sigma / unit_A[..., None], *section)
@@ -131,8 +138,6 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
     remains. There is no equilibrium where the load lies in a gap that the rays leave, such as tension on elements
     that carry compression only.
 
-    Stresses have the digits of the greatest one of the joint: of an element beside the neutral axis these are fewer.
-
     Parameters
     ----------
     y : float, shape (..., n)
@@ -168,8 +173,9 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
     force = A * np.concatenate([elements - level, level - elements], axis=-2)
     ray_N, ray_M = force.sum(-1), (force * elements).sum(-1)
     to_left = ray_N * M[..., None] - ray_M * N[..., None]
-    sector = np.isfinite(bending(elements, A, 0.0, 0.0).I_c) & np.concatenate([apart, apart], axis=-1)
-    between = sector & (to_left >= 0) & (np.roll(to_left, -1, axis=-1) <= 0)
+    carries = A > 0  # a section has two levels
+    spread = np.where(carries, elements, -np.inf).max(-1) > np.where(carries, elements, np.inf).min(-1)
+    between = spread & np.concatenate([apart, apart], -1) & (to_left >= 0) & (np.roll(to_left, -1, -1) <= 0)
     ray, exists = between.argmax(-1), between.any(-1)
     A = np.broadcast_to(A, (*ray.shape, *A.shape[-2:]))
     area = np.where(exists[..., None], np.take_along_axis(A, ray[..., None, None], -2)[..., 0, :], 0.0)
@@ -177,7 +183,7 @@ def neutral_axis(y: ArrayLike, A_t: ArrayLike, A_c: ArrayLike, M: ArrayLike, N: 
     sigma = result.sigma
     pulled, pressed = (sigma > 0).any(-1), (sigma < 0).any(-1)
     state = np.select(
-        [~exists, pulled & pressed, pulled, pressed],
+        [np.isnan(result.I_c), pulled & pressed, pulled, pressed],
         ["no equilibrium", "tension and compression", "all in tension", "all in compression"],
         "no load",
     )
