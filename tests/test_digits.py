@@ -400,3 +400,18 @@ def test_another_unit_of_length_changes_no_bit(name: str, power: int) -> None:
         for result, value in here.items():
             if np.asarray(value).dtype.kind in "fc":
                 assert any(np.array_equal(value * unit**k, there[result], equal_nan=True) for k in (0, 1, 2)), result
+
+
+PLACES = [n for n in TRIED if n.endswith(("_reach", "angle", "angle_between", "angle_opposite"))]
+PLACES += ["crank", "rrr", "prp", "rpp", "link_point"]
+
+
+@pytest.mark.parametrize("name", PLACES)
+@pytest.mark.parametrize("power", [-900, 900])
+def test_places_and_angles_are_right_in_any_unit_of_length(name: str, power: int) -> None:
+    """Squares of such lengths leave the range of floats: angles were 0 or a quarter turn."""
+    unit = 2.0**power
+    for family in (FAMILIES["ordinary"], FAMILIES["near a dead centre"]):
+        here, there = (parts(TRIED[name](**inputs(name, family._replace(size=size)))) for size in (1.0, unit))
+        for result, value in here.items():
+            assert any(np.array_equal(value * unit**k, there[result], equal_nan=True) for k in (0, 1)), result

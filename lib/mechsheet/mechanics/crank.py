@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, length, parameter, unit
-from mechsheet.mechanics.planar import angle, cross
+from mechsheet.mechanics.planar import angle, cross, near_one
 
 
 class CrankReach(NamedTuple):
@@ -165,10 +165,12 @@ def _between(O1: ArrayLike, B: ArrayLike, r: ArrayLike, nearest: Float, farthest
     frame = field(B, "B") - field(O1, "O1")
     d = np.abs(frame)
     longer, shorter = np.maximum(r, d), np.minimum(r, d)
+    unit = near_one(longer)
 
     def opposite(D: Float | float) -> Float:  # 0 where D is too short for a triangle, pi where too long
-        sine = (D - (longer - shorter)) * (D + (longer - shorter))
-        cosine = (shorter + (longer - D)) * (longer + shorter + D)
+        p, q, D = longer * unit, shorter * unit, D * unit
+        sine = (D - (p - q)) * (D + (p - q))
+        cosine = (q + (p - D)) * (p + q + D)
         return 2 * np.arctan2(np.sqrt(np.maximum(sine, 0)), np.sqrt(np.maximum(cosine, 0)))
 
     exists = (nearest <= r + d) & (farthest >= longer - shorter)

@@ -1,5 +1,7 @@
 """Planar points as complex numbers: products, angles, triangles, points of a rigid link."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -14,6 +16,8 @@ from mechsheet.mechanics.arguments import (
     scalar_field,
     vector,
 )
+
+_LEAST = 2.0**-960  # the parts of a sum of products above it have their digits
 
 __all__ = [
     "Complex",
@@ -90,7 +94,18 @@ def angle_between(a: ArrayLike, b: ArrayLike) -> Float:
     >>> angle_between(1, [1j, -2])
     array([1.57079633, 3.14159265])
     """
-    found: Float = np.arctan2(np.abs(cross(a, b)), dot(a, b))
+    return turn(lambda p, q: cross(p, q), vector(a, "a"), vector(b, "b"))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def turn(area: Callable[..., Float], a: Complex, b: Complex, *sides: Complex) -> Float:
+    """Angle between a and b, of which ``area`` gives the area a x b; vectors of any size."""
+    c, d = np.abs(area(a, b, *sides)), dot(a, b)
+    size = c + np.abs(d)
+    if np.count_nonzero((size > _LEAST) & (size < np.inf)) < size.size:
+        unit = near_one(np.maximum(np.abs(a), np.abs(b)))
+        c, d = np.abs(area(a * unit, b * unit, *(x * unit for x in sides))), dot(a * unit, b * unit)
+    found: Float = np.arctan2(c, d)
     return found
 
 
@@ -129,6 +144,8 @@ def angle_opposite(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     a, b, c = _side(a, "a"), _side(b, "b"), _side(c, "c")
     b, c = np.maximum(b, c), np.minimum(b, c)
     closes = (c > 0) & meet(a, b, c) & meet(b, a, c)
+    unit = near_one(b)
+    a, b, c = a * unit, b * unit, c * unit
     over = ((b - c) + a) * np.where(c < a, c - (b - a), a - (b - c))
     under = (b + (c + a)) * ((b - a) + c)
     # where the sides close to one rounding, a factor below zero is that rounding
@@ -263,6 +280,12 @@ def link_acceleration(
     """
     turning = 1j * scalar_field(epsilon, "epsilon") - scalar_field(omega, "omega") ** 2
     return field(a_A, "a_A") + turning * (field(P, "P") - field(A, "A"))
+
+
+def near_one(length: Float) -> Float:
+    """A power of two that brings a length near 1: to multiply by it rounds nothing, and no square leaves the floats."""
+    found: Float = np.ldexp(1.0, np.clip(-np.frexp(length)[1], -1000, 1000))
+    return found
 
 
 def meet(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from mechsheet.mechanics.arguments import Complex, Float, elementwise, field, length, sign
 from mechsheet.mechanics.group import ROUNDINGS, Reach, carried, condition, determinant, moved, turned
 from mechsheet.mechanics.load import Load, resultant
-from mechsheet.mechanics.planar import cross, dot, flat, meet, product
+from mechsheet.mechanics.planar import cross, flat, meet, product, turn
 
 _EPS = 2.0**-52
 
@@ -269,9 +269,7 @@ def rrr_transmission_angle(A: ArrayLike, B: ArrayLike, C: ArrayLike) -> Float:
     np.float64(1.5707963267948966)
     """
     A, B, C = field(A, "A"), field(B, "B"), field(C, "C")
-    a, b = C - A, C - B
-    found: Float = np.arctan2(np.abs(_area(a, b, B - A, cross(a, b), np.abs(a), np.abs(b))), dot(a, b))
-    return found
+    return turn(lambda a, b, d: _area(a, b, d, cross(a, b), np.abs(a), np.abs(b)), C - A, C - B, B - A)
 
 
 @elementwise
