@@ -2,8 +2,12 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from never_stale import assert_never_stale
+from own_worksheet import own, recorded
+
+from mechsheet.readers.numbers import numbers
 
 CONSTRUCTS = [
     "y = np.log(g.F - 2.0) * 0 + x * g.a",
@@ -316,3 +320,26 @@ SHARED = [  # an array with another name, changed in place for other inputs alon
 def test_an_array_has_the_same_numbers_under_each_of_its_names(lines: str, tmp_path: Path) -> None:
     """What changes it in place says so, or is seen, at all of them."""
     assert_never_stale(lines, tmp_path)
+
+
+POINTS = "points = np.array([1 + 1j * g.a, 2 + 2j, 3 - 1j * g.F])\n"
+PARTS = [  # Python has an error for other inputs, where the imaginary part had been 0
+    f"{POINTS}y = next(p for p in points if p.real > g.F).imag * 1",
+    f"{POINTS}y = points[points.real > g.F][0].imag * 1",
+    "if g.F > 2:\n    P = g.F * 1j\ny = P.imag * 1",
+    "i = 0\nwhile i * g.a < 3 - g.F:\n    P = i * 1j + g.a\n    i = i + 1\ny = P.imag * 1",
+]
+
+
+@pytest.mark.parametrize("lines", PARTS)
+def test_no_part_of_a_complex_number_is_one_where_there_is_none(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+
+
+def test_no_part_of_a_point_is_one_where_what_python_saw_is_another(tmp_path: Path) -> None:
+    """The workbook had the ordinate 0 of a point of which it had no abscissa."""
+    _, recording = recorded(own(tmp_path, "P = g.a * int(bin(g.k), 2) + 1j * g.F  # [-] point"))
+    parts = [*recording.values["P"].parts]
+    for given, known in [({"F": 3.25}, [1.5, 3.25]), ({"k": 3}, [np.nan, np.nan])]:
+        found = numbers(parts, {recording.inputs[name]: x for name, x in given.items()})
+        np.testing.assert_array_equal([found[part] for part in parts], known)

@@ -167,6 +167,19 @@ def sized(x: Quantity, holds: Node) -> Quantity:
     return x.each(lambda part: x.graph.node("sized", part, holds))
 
 
+def none_like(x: Quantity) -> Quantity:
+    """No numbers in the shape of a quantity, in both parts of a complex one."""
+    none = lift(x.graph, np.nan).like(x)
+    return x.each(lambda _: none.re)
+
+
+def only_where(graph: Graph, condition: Any, x: Any) -> Quantity:
+    """Elements of ``x`` where the condition holds, else none: NaN beside a complex number has the imaginary part 0."""
+    c, a, none = lift(graph, condition), lift(graph, x), graph.constant(np.nan)
+    graph.go_together(*c.parts, *a.parts)
+    return a.each(lambda part: graph.fold("where", c.re, part, none))
+
+
 def choice(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
     """Elements of ``x`` where the condition holds, else of ``y``; of texts those that hold now."""
     if any(np.asarray(v).dtype.kind == "U" for v in (x, y) if not isinstance(v, Quantity | list | tuple)):

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import absolute, choice, is_zero
+from mechsheet.quantities.arithmetic import absolute, choice, is_zero, only_where
 from mechsheet.quantities.array_rules import ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import bottom_up
@@ -159,7 +159,7 @@ def solved_rows(graph: Graph, rows: list[list[Any]]) -> list[list[Any]]:
         if short:
             exist = [absolute(rows[i][i]) > 0 for i in range(size)] + [np.isfinite(rows[i][k]) for i in range(size)]
             solvable = reduce(operator.and_, exist)
-            x = [choice(graph, solvable, each, np.nan) for each in x]
+            x = [only_where(graph, solvable, each) for each in x]
         solved.append(x)
     return solved
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.arithmetic import choice, only_where
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
@@ -42,7 +42,7 @@ class Selected(Quantity):
             places = Quantity(self.graph, self.graph.rows(self.count(0).re))
             return getattr(self.of[np.searchsorted(self._numbered(), places + 1)], name)
         held = self.of.rearranged(np.ndarray.__getitem__, self.holds.seen())
-        return getattr(choice(self.graph, Quantity(self.graph, self.same), held, nan), name)
+        return getattr(only_where(self.graph, Quantity(self.graph, self.same), held), name)
 
     @property
     def draws(self) -> bool:
@@ -99,7 +99,7 @@ class Selected(Quantity):
         hit = self.holds & (number == wanted)
         if not (exists := hit.reduced("any")).value and not self.graph.supposed:
             raise IndexError(f"no element {key} of {self.extent[0]}")
-        one: Quantity = refused(choice(self.graph, exists, self.of[np.argmax(hit)], nan))
+        one: Quantity = refused(only_where(self.graph, exists, self.of[np.argmax(hit)]))
         return one
 
     def _numbered(self) -> Any:
@@ -146,7 +146,7 @@ class Selected(Quantity):
         some = self.holds.reduced("any")
         if not some.value and not self.graph.supposed:
             raise ValueError(f"no element to take the {kind} of")
-        known: Quantity = refused(choice(self.graph, some, result, nan))
+        known: Quantity = refused(only_where(self.graph, some, result))
         return known
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Any:

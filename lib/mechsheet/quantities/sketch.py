@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice as where
+from mechsheet.quantities.arithmetic import only_where
 from mechsheet.quantities.graph import Guard, NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.written import Written, seen
@@ -33,7 +33,7 @@ class Outline(NamedTuple):
     def where(self, condition: Quantity) -> "Outline":
         """The element while a condition holds; else its points are no numbers, and it is not drawn."""
         graph = condition.graph
-        return self._replace(points=tuple(where(graph, condition, p, np.nan) for p in self.points))
+        return self._replace(points=tuple(only_where(graph, condition, p) for p in self.points))
 
 
 @dataclass(frozen=True, eq=False)

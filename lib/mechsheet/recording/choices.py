@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import trunc, whole
+from mechsheet.quantities.arithmetic import none_like, trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
@@ -176,8 +176,10 @@ def _missing(value: Any) -> Any:
         vars(new).update((name, _missing(part)) for name, part in vars(value).items())
         return new
     if isinstance(value, Quantity):
-        return lift(value.graph, np.nan).like(value)
-    return np.full(np.shape(value), np.nan) if isinstance(value, ARRAYS) else UNBOUND
+        return none_like(value)
+    if not isinstance(value, ARRAYS):
+        return UNBOUND
+    return np.full(np.shape(value), complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan)
 
 
 def _reached(f: Callable[..., Any]) -> list[Any]:

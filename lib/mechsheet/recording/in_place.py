@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice, is_whole
+from mechsheet.quantities.arithmetic import choice, is_whole, only_where
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
@@ -143,7 +143,7 @@ def _at(old: Quantity, places: list[Any], new: Quantity) -> Quantity | None:
     if np.broadcast_shapes(value.extent, old.extent) != old.extent:
         return None
     set_to: Quantity = choice(graph, reduce(operator.and_, is_set), value, old)
-    return choice(graph, there, set_to, np.nan)  # type: ignore[no-any-return]
+    return only_where(graph, there, set_to)
 
 
 def part_of(array: Any, key: Callable[[], Any]) -> Any:

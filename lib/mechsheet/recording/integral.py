@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.arithmetic import choice, only_where
 from mechsheet.quantities.graph import Graph, Label, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity, lift
@@ -66,7 +66,7 @@ def integral(f: Callable[..., Any], note: Note, *args: Any, **named: Any) -> Any
     if (way := next(known, None)) is None:
         raise NotRecorded(f"scipy's quad of what rules at {len(_AT) * 2**_HALVED} places differ about")
     whole, close = made.sum(way[0], 2 * way[1], labelled=True)
-    result = choice(graph, close, whole, np.nan)
+    result = only_where(graph, close, whole)
     note(result.re, None)
 
     def error() -> Quantity:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import imaginary, is_whole
+from mechsheet.quantities.arithmetic import imaginary, is_whole, none_like
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
@@ -253,9 +253,7 @@ def _repeated(
     graph = current.get()
     met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
     end = [lift(graph, np.nan if x is UNBOUND else x) for x in (*last, 0)]
-    begin = [
-        lift(graph, np.nan).like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)
-    ]
+    begin = [none_like(b) if a is UNBOUND else lift(graph, a) for a, b in zip((*first, 0), end, strict=True)]
     like = [a + 0j if b.im is not None else a for a, b in zip(begin, end, strict=True)]
     initial = _parts(begin, like)
     nodes = [graph.state(node) for node in initial]

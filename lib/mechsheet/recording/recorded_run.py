@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import sized
+from mechsheet.quantities.arithmetic import only_where, sized
 from mechsheet.quantities.graph import Gap, Graph, Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, leaves_of
 from mechsheet.quantities.node import Node, conditions
@@ -157,7 +156,7 @@ class Run(OfPositions):
             for k, x in value.positions if isinstance(value, Mark) else ():
                 at = lift(self.graph, x)
                 for guard in guards:
-                    at = where(self.graph, Quantity(self.graph, guard.holds), at, np.nan)
+                    at = only_where(self.graph, Quantity(self.graph, guard.holds), at)
                 self.recording.positions[k] = at.re
             sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
             found += [None] * len(own) if own and len(own) != len(drawn) else sketches
@@ -403,7 +402,7 @@ class Run(OfPositions):
                     x = sized(x, guard.holds)
                 else:
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
-                    x = where(self.graph, Quantity(self.graph, guard.holds), x, np.nan)
+                    x = only_where(self.graph, Quantity(self.graph, guard.holds), x)
         return x
 
     def while_are(self, leaves: Iterable[Node]) -> tuple[Guard, ...]:
