@@ -18,7 +18,7 @@ SETUP = """import math
 from typing import Literal
 import marimo as mo
 import numpy as np
-from mechsheet import ask, inputs, one_of, read
+from mechsheet import ask, inputs, one_of, read, typeset
 
 @inputs
 class Steel:
@@ -56,7 +56,13 @@ PUT_TOGETHER = [  # or under a name, or one of two
     "note", "f'B {g.F:.1f} ' + kind + f' {g.side}'", "'C much' if g.F > 3 else 'C little'", "'D ' + kind",
     "'E {0:.2f} N, {1} {0:.1f}'.format(g.F, kind)", "'F {:.2f} N, {} {n}'.format(g.F, kind, n=g.side)",
     "'G ' + str(g.F) + ' N'", "'H ' + f'{g.F:.2f}'.replace('.', ',')", "str(round(g.F, 2)).replace('.', ',')",
+    "', '.join(f'I {x:.1f}' for x in (g.F, 2 * g.F))", "'J %.2f N' % g.F", "'K %s, %.1f' % (kind, g.F)",
 ]  # fmt: skip
+NOTES = [  # shown by typeset, or under a name
+    'typeset(mo.md(f"L {g.F:.1f} {kind}"))',
+    'noted = mo.md(f"M {g.F:.1f} {kind}")\n    noted',
+    'titled = mo.md(", ".join(f"N {x:.1f}" for x in (g.F, y)))\n    typeset(y, titled)',
+]
 CHANGED = [
     {"F": "3.75"},
     {"side": "right", "F": "1"},
@@ -85,7 +91,8 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         f"@app.cell\ndef put_{k}(g, kind, note):\n    mo.md({words})\n    return\n\n\n"
         for k, words in enumerate(PUT_TOGETHER)
     )
-    path.write_text(text.replace("if __name__", "".join([*said, *put, "if __name__"])))
+    notes = (f"@app.cell\ndef note_{k}(g, kind, y):\n    {lines}\n    return\n\n\n" for k, lines in enumerate(NOTES))
+    path.write_text(text.replace("if __name__", "".join([*said, *put, *notes, "if __name__"])))
     sheet = cells.load(path)
     own, other = tmp_path / "own.html", tmp_path / "other.html"
     own.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
@@ -96,7 +103,18 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         blank.goto(page.as_uri() + (f"#{address}" if address else ""))
         blank.wait_for_selector("body[data-ready]")
         shown.append(read(blank)["texts"])
-    assert shown[0] == shown[1] and len(shown[0]) >= len(SAID) + len(PUT_TOGETHER)
+    assert shown[0] == shown[1] and len(shown[0]) >= len(SAID) + len(PUT_TOGETHER) + len(NOTES)
+
+
+def test_a_note_is_not_that_of_what_its_names_are_later(blank: "Page", tmp_path: Path) -> None:
+    """The line that binds a name anew gives it the number that it has now, whatever the input is."""
+    path, page = tmp_path / "later.py", tmp_path / "later.html"
+    lines = 'v = g.F  # [-] v\nnote = mo.md(f"so {v:.1f}")\nv = 2.5  # [-] v\ntypeset(note)'
+    path.write_text(written(SETUP, "F: float = 2.5  # [-] number; > 0", lines))
+    page.write_text(write.page(cells.load(path), cells.load(path).inputs()), encoding="utf-8")
+    blank.goto(f"{page.as_uri()}#F=3.75")
+    blank.wait_for_selector("body[data-ready]")
+    assert "so 2.5" not in blank.inner_text("body")
 
 
 JUDGED = """limit = np.divide(1.0, g.F) if g.F >= 0 else np.sqrt(g.F)  # [-] limit

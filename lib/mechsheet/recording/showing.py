@@ -3,7 +3,7 @@
 import ast
 import re
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
@@ -12,7 +12,7 @@ from typing import Any
 
 from mechsheet.quantities.lines import SLIDER, Recording
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.recording.forms import formatted
+from mechsheet.recording.forms import by_percent, formatted
 from mechsheet.recording.memory import names_of
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -101,10 +101,40 @@ def texts(cell: Cell) -> list[ast.expr]:
     shown = [
         part for call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset" for part in call.args
     ]
+    notes = _notes(cell)
+    parts = [_prose(part, notes) or part for part in shown]
     match cell.lines[-1:]:
-        case [ast.Expr(ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]))]:
-            shown.append(text)
-    return [text for text in shown if _follows(text)]
+        case [ast.Expr(last)] if text := _prose(last, notes):
+            parts.append(text)
+    return [text for text in parts if _follows(text)]
+
+
+def _prose(shown: ast.expr, notes: Mapping[str, ast.expr]) -> ast.expr | None:
+    """The text of ``mo.md(text)``, or of a note."""
+    match shown:
+        case ast.Call(ast.Attribute(ast.Name("mo"), "md"), [text]):
+            return text
+        case ast.Name(name):
+            return notes.get(name)
+    return None
+
+
+def _notes(cell: Cell) -> dict[str, ast.expr]:
+    """The texts of what a cell calls ``note = mo.md(text)``, of which no later line of it binds a name anew."""
+    notes = dict[str, ast.expr]()
+    for line in cell.lines:
+        bound = {
+            node.id for node in source.nodes(line) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+        }
+        notes = {name: text for name, text in notes.items() if bound.isdisjoint({name, *_names(text)})}
+        match line:
+            case ast.Assign([ast.Name(name)], ast.Call() as call) if text := _prose(call, {}):
+                notes[name] = text
+    return notes
+
+
+def _names(text: ast.expr) -> set[str]:
+    return {node.id for node in source.nodes(text) if isinstance(node, ast.Name)}
 
 
 def _follows(text: ast.expr) -> bool:
@@ -112,8 +142,12 @@ def _follows(text: ast.expr) -> bool:
     match text:
         case ast.BinOp(left, ast.Add(), right):
             return _follows(left) or _follows(right)
+        case ast.BinOp():
+            return by_percent(text) is not None
         case ast.Call(ast.Attribute(of, "replace")):
             return _follows(of)
+        case ast.Call(ast.Attribute(_, "join")):
+            return True
         case ast.Call():
             return formatted(text) is not None
     return isinstance(text, ast.JoinedStr | ast.Name | ast.IfExp)
