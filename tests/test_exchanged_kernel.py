@@ -61,7 +61,7 @@ def pin(name: str, a: Any) -> Any:
 def proved(folder: Path, where: str) -> tuple[Any, list[Proved]]:
     sheet = own(folder, f"C = rrr({where}, +1)  # [m] pin")
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
-    proof = proof_of(names, sheet, record(names, sheet, whole=True))
+    proof = proof_of(names, sheet, record(names, sheet, whole=True, exact=True))
     return names["C"], [column for column in proof.columns if column.name == "C"]
 
 

@@ -31,7 +31,7 @@ m = m_least.value.r  # [-] over positions"""
 def run(folder: Path, lines: str) -> tuple[Any, Recording, Proof]:
     sheet = own(folder, lines)
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
-    recording = record(names, sheet, whole=True)
+    recording = record(names, sheet, whole=True, exact=True)
     return names, recording, proof_of(names, sheet, recording, ["m"])
 
 

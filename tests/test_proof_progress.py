@@ -23,7 +23,7 @@ def test_a_long_proof_has_a_bar_on_the_terminal(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     sheet = load(JOINT)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    recording, seen = record(names, sheet), list[tuple[int, int]]()
+    recording, seen = record(names, sheet, exact=True), list[tuple[int, int]]()
     proof_of(names, sheet, recording)
     shown = capsys.readouterr().err
     assert ("proof" in shown) == (long == 0.0)

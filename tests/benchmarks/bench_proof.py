@@ -25,14 +25,14 @@ def jobs(stem: str) -> dict[str, Callable[[], object]]:
     sheet = load(WORKSHEETS / f"{stem}.py")
     g = sheet.inputs()
     names = sheet.run(sheet.results, {"g": g})
-    recording = record(names, sheet)
+    recording, exact = record(names, sheet), record(names, sheet, exact=True)
     by = [node for node in recording.inputs.values() if node.value.dtype.kind == "f"]
     columns = [column for columns in recording.tables.values() for column in columns if column is not None]
     nodes: list[Node] = [node for column in columns for node in column.parts if not unfollowed([node], by)]
     return {
         "evaluation": lambda: sheet.run(sheet.results, {"g": g}),
         "recording": lambda: record(names, sheet),
-        "proof": lambda: proof_of(names, sheet, recording),
+        "proof": lambda: proof_of(names, sheet, exact),
         "gradient": lambda: gradient(nodes[-1], 0, by),
         "all slopes": lambda: slopes(nodes, by),
     }

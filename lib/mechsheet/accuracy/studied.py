@@ -267,7 +267,7 @@ def study_costs(number: str, path: Path, studies: Mapping[str, Callable[[], Any]
         "their slopes by one input": partial(slopes, columns, inputs[:1]),
         f"their slopes by all {len(inputs)} inputs": partial(slopes, columns, inputs),
         f"one number's slopes by all {len(inputs)} inputs": partial(gradient, columns[-1], 0, inputs),
-        "all their digits proved": partial(proof_of, names, sheet, recording),
+        "all their digits proved": partial(proof_of, names, sheet, record(names, sheet, exact=True)),
         "its workbook written": partial(report.workbook, path.stem, names, {}),
         "a run, and the HTML of all that it shows": written,
         **studies,

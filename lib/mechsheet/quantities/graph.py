@@ -80,8 +80,8 @@ class Graph(Lengths):
         self.refuses = draws or bodies  # what Python has an error for is told; cells have errors themselves
         self.listed = frozenset[int]()  # how many rows the tables have that list every so many
         self.positions = 0  # numbers of linspace before any were left out
-        self.line = 0  # of the worksheet, which is run
-        self.work = 0  # numbers computed since somebody set it to 0
+        self.line, self.work = 0, 0  # of the worksheet, which is run; numbers computed since somebody set it to 0
+        self.unmoved: Any = None  # of a proof: how numbers are computed of numbers alone
         self.most = MOST_DRAWN if self.refuses else MOST  # that these may be
         self.counts = set[Node]()  # which rest on numbers of rows, and are these themselves
         self.always = set[Node]()  # which are numbers whatever the inputs are

@@ -212,15 +212,14 @@ _source = lru_cache(maxsize=4096)(ast.unparse)
 
 def leaves_of(roots: Iterable[Node], recording: Recording) -> list[Node]:
     """Inputs that quantities rest on; of found values those of their equations."""
-    found: dict[Node, None] = {}
+    order, found = {node: n for n, node in enumerate(recording.inputs.values())}, dict[Node, None]()
     waiting, visited = list(roots), set[Node]()
     while waiting:
         node = waiting.pop()
         if node in visited:
             continue
         visited.add(node)
-        if node.op == "input":
+        if node in order:  # else it stands for a number that is written
             found[node] = None
         waiting.extend(node.operands)
-    order = {node: n for n, node in enumerate(recording.inputs.values())}
     return sorted(found, key=order.__getitem__)

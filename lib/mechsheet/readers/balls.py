@@ -41,7 +41,7 @@ _conditions, _distances = (np.frompyfunc(f, 1, 1) for f in (condition, distance)
 _known = np.frompyfunc(lambda x: arb.nan() if x is NONE else x, 1, 1)
 
 
-# Constants that Python had computed of numbers alone, with the operations that they are of.
+# Inputs that stand for numbers of the formulas, with these.
 meant: ContextVar[Mapping[Node, Node]] = ContextVar("meant", default=MappingProxyType({}))
 
 

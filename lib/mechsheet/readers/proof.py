@@ -7,7 +7,6 @@ right.
 
 import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
@@ -18,7 +17,6 @@ import numpy as np
 from flint import arb
 
 from mechsheet import units
-from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
@@ -28,7 +26,6 @@ from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant, endless, lea
 from mechsheet.readers.balls import Balls, meant, precision, unfollowed
 from mechsheet.readers.gradients import adjoints
 from mechsheet.readers.proved_root import ProvedRoot, proved_root
-from mechsheet.readers.replaced import replaced
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
@@ -297,13 +294,11 @@ class _Digits:
         """
         with precision(_BITS[-1]):
             (found,) = self.finest.of([node])
-        with suppress(NotRecorded):  # of what is found by them
-            node = replaced(self.recording.graph, [node], meant.get()).get(node, node)
         largest = int(np.argmax(np.abs(shown.own)))
         moves = {part: share * part.value for part, share in adjoints(node, largest).items()}
         parts = [np.abs(m) for m in (*moves.values(), *(part.value for part in _addends(node)))]  # some move nothing
         made = max(float(np.max(m, initial=0.0, where=np.isfinite(m))) for m in parts)
-        given = {part: m for part, m in moves.items() if part.op == "input"}
+        given = {part: m for part, m in moves.items() if _is_held(part)}
         if not _within(found, made * _ZERO):
             if not _within(found, max(made * _ZERO, _HELD * sum(map(_most, given.values())))):
                 return None
@@ -314,13 +309,18 @@ class _Digits:
         why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
         return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
 
+    def lost(self, part: Node) -> str:
+        """What computes numbers of numbers alone that are not followed; nothing of others."""
+        alone = self.recording.graph.unmoved
+        return f"line {part.line}: {alone.lost[part]}" if alone and part in alone.lost else ""
+
     def why(self, shown: _Shown) -> str:
         """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
         known = self.last.known if shown.node in self.last.known else self.first.known
         for part in bottom_up([shown.node] if shown.node else (), ()):
             if part in known and leaves_open(known[part]) and not any(leaves_open(known[o]) for o in part.operands):
                 gap = next((str(gap) for gap in self.recording.gaps if gap.line == part.line), "")
-                if part.op == "exported" and gap:
+                if part.op == "exported" and (gap := self.lost(part) or gap):
                     return gap
                 if part.op == "found":
                     root = "least sum of squares" if part.args[0].least else "root"
@@ -362,6 +362,11 @@ def _within(balls: Values, size: float) -> bool:
 
 def _most(moves: Values) -> float:
     return float(np.nansum(np.abs(moves)))
+
+
+def _is_held(part: Node) -> bool:
+    """Whether an input, which may be no number that is written in a formula."""
+    return part.op == "input" and part not in meant.get()
 
 
 def _held(node: Node, element: int, part: Node, moves: Values, made: float) -> float:

@@ -21,6 +21,7 @@ from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
+from mechsheet.recording import exactly
 from mechsheet.recording.memory import Memory, may_change, names_of
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
@@ -416,7 +417,7 @@ def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
     if isinstance(values, Sifted) and values.pairs:
         return values.of("sum", start)
-    return values.reduced("sum") + start if _is_whole(values) else sum(values, start)
+    return values.reduced("sum") + start if _is_whole(values) else exactly.added(values, start)
 
 
 def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
@@ -443,8 +444,8 @@ CALLS: dict[str, Any] = {
     "choice": choice, "said": said, "element": element, "get": got,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined_kept,
-    "max": _extreme("max"), "min": _extreme("min"), "round": round, "sorted": ranked, "place": placed,
+    "max": _extreme("max"), "min": _extreme("min"), "round": exactly.rounded, "sorted": ranked, "place": placed,
     "float": _number(float, lambda x: x), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
-    "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else pow(*x),
+    "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else exactly.powered(*x),
 }  # fmt: skip

@@ -14,6 +14,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.quantities.selected import Selected
+from mechsheet.recording import exactly
 from mechsheet.recording.choices import element
 
 OTHER_NAME = "an array is changed that has another name too"
@@ -164,8 +165,9 @@ def _placed(old_and_new: Any, key: Any) -> Any:
 
 def changed(old: Any, operation: str, value: Any) -> Any:
     """``old`` after ``old += value`` or another such operation."""
+    old = exactly.of_array(old)
     if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
-        return getattr(operator, f"i{operation.rstrip('_')}")(old, value)
+        return exactly.operated(operation, old, value, f"i{operation.rstrip('_')}")
     graph = next(quantities([old, value])).graph
     graph.gone.append(weakref.ref(owner(old)))
     new = lift(graph, getattr(operator, operation)(old, value))

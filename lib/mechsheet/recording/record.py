@@ -9,6 +9,7 @@ import numpy as np
 from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.every_line import add_lines
+from mechsheet.recording.exactly import Unmoved
 from mechsheet.recording.positions import lacking, rows_of, step_of
 from mechsheet.recording.recorded_run import Run
 from mechsheet.recording.stage import shown
@@ -27,6 +28,7 @@ def record(
     lists: bool = False,
     bodies: bool = False,
     want: Sequence[str] = (),
+    exact: bool = False,
 ) -> Recording:
     """Run the cells behind the tables, found values and checks of ``namespace`` with recorded quantities.
 
@@ -37,16 +39,17 @@ def record(
     for, only those are recorded, and all of them only for numbers that rest on all, such as an integral, and for checks
     that take little more for it; the others are `Residual.where`. Where it ``draws``, sliders are inputs too, named
     ``slider part``, and the drawings that cells show are recorded. With ``lists`` those among the inputs may have any
-    length, with ``bodies`` the functions of the mechanics are in all their steps.
+    length, with ``bodies`` the functions of the mechanics are in all their steps. Where it is ``exact``, numbers that
+    are computed of numbers alone are operations too.
     """
-    return _run(namespace, sheet, whole, known, every, draws, lists, bodies, want).recording
+    return _run(namespace, sheet, whole, known, every, draws, lists, bodies, want, exact).recording
 
 
 @np.errstate(all="ignore")  # the worksheet's own run has warned
 @stating()  # and has stated its checks
-def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet) -> Recording:
+def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet, exact: bool = False) -> Recording:
     """The recording of what is shown, and of the lines on which nothing of that rests too."""
-    run = _run(namespace, sheet)
+    run = _run(namespace, sheet, exact=exact)
     token = current.set(run.graph)
     try:
         add_lines(run)
@@ -67,6 +70,7 @@ def _run(
     lists: bool = False,
     bodies: bool = False,
     want: Sequence[str] = (),
+    exact: bool = False,
 ) -> Run:
     sheet = load(Path(namespace["__file__"])) if sheet is None else sheet
     asked = want or [name for name in sheet.results if whole or shown(namespace.get(name))]
@@ -74,7 +78,7 @@ def _run(
     try:
         for thin in dict.fromkeys((every or step_of(namespace), 1)):
             graph = Graph(thin, draws, lists, bodies)
-            graph.listed = rows_of(namespace)
+            graph.listed, graph.unmoved = rows_of(namespace), Unmoved() if exact else None
             current.set(graph)
             lines = registry(namespace) if known is None else known
             runs.append(Run(sheet, graph, namespace, asked, lines, unnamed=not (want or bodies)))

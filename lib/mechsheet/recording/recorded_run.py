@@ -21,7 +21,7 @@ from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
-from mechsheet.recording import showing, statement
+from mechsheet.recording import exactly, showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
 from mechsheet.recording.in_place import OTHER_NAME
@@ -66,8 +66,9 @@ class Run(OfPositions):
         self.want, self.lines, self.unnamed = want, lines, unnamed
         self.rebound: Sequence[Formula] = ()  # lines of the present cell whose names others bind anew
         self.constants = of_setup(sheet)  # its lines that end in a unit
-        for line in sheet.setup:
-            self.set_up(line, sheet.path)
+        self.facts = partial(statement.facts, path=sheet.path, exact=graph.unmoved is not None)
+        for line in sheet.defining() if graph.unmoved else sheet.setup:
+            self.set_up(line)
         self.showing = showing.functions(sheet)
         more = showing.without_name(sheet, {"g", *namespace}, self.showing) if unnamed else []
         needs = chain.from_iterable(sorted(cell.needs) for cell in more)
@@ -86,7 +87,7 @@ class Run(OfPositions):
         for line in cell.lines:
             lines += self.parts(line, before)
             before.update(statement.touched(line))
-        facts = [statement.facts(line, self.sheet.path) for line in lines]
+        facts = [self.facts(line) for line in lines]
         last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
         twice = len(last) < sum(len(fact.touched) for fact in facts)
         self.rebound = rebound(self.sheet, cell.lines) if twice else []
@@ -126,7 +127,7 @@ class Run(OfPositions):
 
     def apart(self, stage: Stage, line: ast.stmt, later: set[str]) -> bool:
         """Run a statement part by part; whether it has such parts, and all of them can be recorded."""
-        parts = [statement.facts(part, self.sheet.path) for part in statement.apart(line)]
+        parts = [self.facts(part) for part in statement.apart(line)]
         gaps, own = len(self.recording.gaps), {name for part in parts[:-1] for name in part.touched}
         for part in parts:
             self.step(stage, line.lineno, part, later)
@@ -146,7 +147,7 @@ class Run(OfPositions):
         for part in showing.expressions(cell):
             name = part.id if isinstance(part, ast.Name) else showing.HERE
             if name is showing.HERE:
-                self.step(stage, part.lineno, statement.facts(showing.bound(part), self.sheet.path), set())
+                self.step(stage, part.lineno, self.facts(showing.bound(part)), set())
                 if name not in self.names:
                     self.lost.pop(name, None)
                     return
@@ -170,7 +171,7 @@ class Run(OfPositions):
 
     def told(self, stage: Stage, text: ast.expr) -> Said | None:
         """A text, with the recorded numbers in it; None of one that is not known."""
-        self.step(stage, text.lineno, statement.facts(showing.bound(text), self.sheet.path), set())
+        self.step(stage, text.lineno, self.facts(showing.bound(text)), set())
         lost, value = self.lost.pop(showing.HERE, None), self.names.pop(showing.HERE, None)
         guards = *self.looked.get(showing.HERE, ()), *stage.guards.values()
         known = value if isinstance(value, Written) else Written((value,)) if isinstance(value, str) else None
@@ -312,16 +313,16 @@ class Run(OfPositions):
         here = (row for row in self.rebound if row.name == name and row.expression.lineno >= self.graph.line)
         return next(here, None) or self.lines.get(name)
 
-    def set_up(self, line: ast.stmt, path: str) -> None:
+    def set_up(self, line: ast.stmt) -> None:
         """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
-        facts = statement.facts(line, path)
+        facts, alone = self.facts(line), self.graph.unmoved
         measured = "units" in facts.loaded or any(x in self.lines or x in self.constants for x in facts.touched)
-        if measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
+        if alone or measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
             try:
                 exec(facts.code, self.names)
+                self.measure(facts.touched, frozenset())
             except (Exception, NotRecorded):  # its numbers stay, of no known dimension
-                return
-            self.measure(facts.touched, frozenset())
+                self.names |= {name: alone.unknown(self.graph, self.names[name]) for name in facts.touched if alone}
 
     def keep(
         self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
@@ -334,7 +335,7 @@ class Run(OfPositions):
         lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
         if lasting and not rests_on and all(map(is_number, own)):
             for name, number in zip(touched, own, strict=True):  # the same for all inputs
-                self.names[name], self.looked[name] = Quantity(graph, graph.constant(number, units.UNKNOWN)), ()
+                self.names[name], self.looked[name] = exactly.by_itself(graph, number), ()
             return
         guards = self.while_are(rests_on)
         if not final or not final.issuperset(touched) or any(held(self.namespace.get(name)) for name in final):

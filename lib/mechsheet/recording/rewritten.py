@@ -17,6 +17,7 @@ from mechsheet.recording import (
     choices,
     conditions,
     each_row,
+    exactly,
     in_place,
     kept,
     loops,
@@ -63,7 +64,7 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
-CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS
+CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
 _KINDS = (
@@ -346,6 +347,17 @@ class _Rewriting(ast.NodeTransformer):
     visit_TryStar = visit_With = visit_Try
 
 
+class _Exactly(_Rewriting):
+    """The same for a proof."""
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        new = super().visit_BinOp(node)
+        return exactly.operation(new, _OPERATIONS[type(new.op)]) if isinstance(new, ast.BinOp) else new
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        return exactly.called(super().visit_Call(node))
+
+
 def _lines(lines: Any) -> list[ast.stmt]:
     return [*lines] if isinstance(lines, list | tuple) else [lines]
 
@@ -404,15 +416,18 @@ def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tupl
     return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
 
 
-def compiled(statement: ast.stmt, path: str) -> CodeType:
-    """Code of a statement, to be run among the names of `CALLS`; the statement itself is not changed."""
-    if not any(map(_may_be_rewritten, source.nodes(statement))):
+def compiled(statement: ast.stmt, path: str, exact: bool = False) -> CodeType:
+    """Code of a statement, to be run among the names of `CALLS`; the statement itself is not changed.
+
+    In what is ``exact`` operations on numbers alone are calls too.
+    """
+    if not (exact or any(map(_may_be_rewritten, source.nodes(statement)))):
         return compile(ast.Module([statement], []), path, "exec")
     tree = ast.Module([pickle.loads(pickle.dumps(statement))], [])
-    return compile(ast.fix_missing_locations(_Rewriting().visit(tree)), path, "exec")
+    return compile(ast.fix_missing_locations((_Exactly if exact else _Rewriting)().visit(tree)), path, "exec")
 
 
-def rebuilt(f: FunctionType, names: dict[str, Any]) -> FunctionType:
+def rebuilt(f: FunctionType, names: dict[str, Any], exact: bool = False) -> FunctionType:
     """A function among other names, rewritten; a function of a class or inside another one is not rewritten."""
     if not f.__closure__ and "." not in f.__qualname__:
         lines, start = inspect.getsourcelines(f)
@@ -427,7 +442,7 @@ def rebuilt(f: FunctionType, names: dict[str, Any]) -> FunctionType:
                         argument.annotation = None
                 given.defaults, given.kw_defaults = [], [None] * len(given.kw_defaults)
                 own = names | {}
-                exec(compiled(written, f.__code__.co_filename), own)
+                exec(compiled(written, f.__code__.co_filename, exact), own)
                 code = own[f.__name__].__code__
                 return _with(code, names, f)
     return _with(f.__code__, names, f)

@@ -47,7 +47,7 @@ class Statement(NamedTuple):
 
 
 @lru_cache(maxsize=4096)
-def facts(statement: ast.stmt, path: str) -> Statement:
+def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
     nodes = source.nodes(statement)
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
@@ -58,7 +58,7 @@ def facts(statement: ast.stmt, path: str) -> Statement:
     of_parts = {id(n.value) for n in attributes}
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
-        compiled(statement, path),
+        compiled(statement, path, exact),
         touched(statement),
         frozenset(n.id for n in names),
         frozenset(n.id for n in names if id(n) not in beside),

@@ -32,7 +32,7 @@ from mechsheet.quantities.refused import compared, of_library, of_numpy, of_pyth
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
-from mechsheet.recording import scipy_rules, spline_rules
+from mechsheet.recording import exactly, scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
 from mechsheet.recording.math_rules import MATH, STATISTICS
@@ -70,7 +70,7 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
             case _lru_cache_wrapper() if isinstance(value.__wrapped__, FunctionType):
                 return meant(value.__wrapped__)  # it would give one recording what it kept of another
             case FunctionType() if value.__globals__ is common:
-                return rebuilt(value, own)
+                return rebuilt(value, own, current.get().unmoved is not None)
             case dict() if type(value) is dict and any(map(callable, value.values())):
                 return {key: meant(each) for key, each in value.items()}
             case list() if type(value) is list and any(map(callable, value)):
@@ -123,6 +123,12 @@ def instead(value: Any) -> Any:
         return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
     if isinstance(value, _lru_cache_wrapper) and not room.startswith("mechsheet."):
         return instead(value.__wrapped__)
+    if (
+        current.get().unmoved is not None
+        and isinstance(value, BuiltinFunctionType | FunctionType)
+        and room != "builtins"
+    ):
+        return value if room.startswith("mechsheet.") else exactly.of_others(value)
     return value
 
 
@@ -164,7 +170,7 @@ def _of_scipy(f: Callable[..., Any]) -> Callable[..., Any]:
             raise NotRecorded(f"scipy's {f.__name__}")
         if not has_quantity([*args, *kwargs.values()]):
             try:
-                return f(*args, **kwargs)
+                return exactly.computed(f, function, args, kwargs)
             except Exception as error:  # of a function of the worksheet, which may give quantities
                 raise NotRecorded(f"scipy's {f.__name__}") from error
         if rule is None:
@@ -296,12 +302,14 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
 
     def function(*args: Any, **kwargs: Any) -> Any:
         args = tuple(list(a) if isinstance(a, _GONE_THROUGH) else a for a in args)
-        if f is np.arange and not kwargs:
-            return arange(current.get(), *args)
-        if f is np.linspace and not kwargs.keys() - {"endpoint", "num"}:
-            return linspace(current.get(), *args, **{"count" if k == "num" else k: v for k, v in kwargs.items()})
+        if f in (np.arange, np.linspace) and not kwargs.keys() - {"endpoint", "num"}:
+            graph, args = current.get(), exactly.given(current.get(), args)
+            if f is np.linspace:
+                return linspace(graph, *args, **{"count" if k == "num" else k: v for k, v in kwargs.items()})
+            if not kwargs:
+                return arange(graph, *args)
         if not has_quantity([*args, *kwargs.values()]):
-            return (plainly or f)(*args, **kwargs)
+            return exactly.computed(plainly or f, function, args, kwargs)
         if f in _CHOOSING and not of_library(sys._getframe(1)):
             compared(*quantities(args))
         if f in _ARRAYS:
@@ -349,7 +357,7 @@ def _itself(f: Any) -> Callable[..., Any]:
 
     def function(*args: Any, **kwargs: Any) -> Any:
         if not (always or has_quantity((args, kwargs))):
-            return f(*args, **kwargs)
+            return exactly.computed(f, function, args, kwargs)
         if always and f.__module__ not in _STATING:
             args, kwargs = tuple(map(looked_at, args)), {key: looked_at(value) for key, value in kwargs.items()}
         graph = current.get()

@@ -103,7 +103,11 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     told, proved = inputs.readings(inputs.declared(sheet.inputs), given.inputs), tuple[str, ...]()
     if given.proof:
         wanted = [*given.want, *given.limits]
-        proof = proof_of_wanted(names, sheet, wanted) if given.want else proof_of(names, sheet, record(names, sheet))
+        proof = (
+            proof_of_wanted(names, sheet, wanted)
+            if given.want
+            else proof_of(names, sheet, record(names, sheet, exact=True))
+        )
         judged, proved = [*judged, proof.check(given.proof)], tuple(proof.lines())
     bands = tuple(banding.lines(names, sheet, given, [*quantities], judged)) if given.tolerances else ()
     shown = tuple(quantities.values()), tuple(tables), tuple(judged), tuple(told)

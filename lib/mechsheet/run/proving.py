@@ -32,11 +32,10 @@ def proof_of(
     """
     from mechsheet.readers.balls import meant  # on use: only a proof needs balls
     from mechsheet.readers.proof import prove  # on use: as above
-    from mechsheet.recording.computed import computed  # on use: as above
 
     known = registry(namespace)
     tables = [value for value in parts.values(namespace) if isinstance(value, Table)]
-    before = meant.set(computed(recording.graph, sheet))
+    before = meant.set(recording.graph.unmoved.written)
     try:
         with if_long("proof") as shown:
             return prove(recording, namespace, tables, known, Places(sheet, known).lines, fields, done or shown)
@@ -48,4 +47,4 @@ def proof_of_wanted(namespace: Mapping[str, Any], sheet: Worksheet, want: Iterab
     """What is proved of the cells that some results need, which have been run."""
     want = list(want)
     needed = replace(sheet, cells=tuple(sheet.needed(want, beforehand(inputs_of(namespace)))))
-    return proof_of(namespace, sheet, record(namespace, needed, whole=True), {base(name) for name in want})
+    return proof_of(namespace, sheet, record(namespace, needed, whole=True, exact=True), {base(name) for name in want})

@@ -100,7 +100,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
 
         known = registry(namespace)
         fields = [name for name, line in known.items() if not line.arguments and np.ndim(namespace.get(name, 0.0))]
-        shown = proof_of(namespace, sheet(), record(namespace, sheet(), whole=True, every=1), fields, done)
+        shown = proof_of(namespace, sheet(), record(namespace, sheet(), whole=True, every=1, exact=True), fields, done)
         return proved.html(shown, _of(Table, parts.values(namespace)), known)
 
     def bands() -> Any:
@@ -158,7 +158,7 @@ def _script(title: str | None, namespace: Mapping[str, Any], worksheet: Path) ->
         say(*bands.lines())
     proved = dict[Check, float]()
     if given.proof:
-        proof = proof_of(namespace, load(worksheet), recording)
+        proof = proof_of(namespace, sheet := load(worksheet), record_every_line(namespace, sheet, exact=True))
         checks.append(proof.check(given.proof))
         proved = dict(proof.checks(given.proof))
         say(*proof.lines(), checks[-1])

@@ -51,6 +51,12 @@ class Worksheet:
     setup: tuple[ast.stmt, ...] = ()  # statements that bind shared names to values
     errors: Mapping[str, Any] = field(default_factory=dict)  # what its setup has numpy do about errors
     comments: dict[int, str] = field(default_factory=dict)  # of the lines of its file
+    whole: tuple[ast.stmt, ...] = ()  # all statements of its setup, classes and functions
+
+    def defining(self) -> list[ast.stmt]:
+        """Of its setup all but imports and the class of the inputs."""
+        apart, imports = getattr(declared_in(self.common), "__name__", ""), ast.Import | ast.ImportFrom | ast.Expr
+        return [line for line in self.whole if not isinstance(line, imports) and apart not in bound(line)]
 
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
         """Namespace after running the cells that ``want`` depends on, where the names ``given`` are known already.
@@ -288,8 +294,8 @@ def read(path: Path) -> Worksheet:
         exec(compile(ast.Module(lines, []), path, "exec"), common)
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
-    title = _title(tree) or path.stem
-    return Worksheet(str(path), tuple(_cells(tree, text, path)), common, title, setup, errors, comments)
+    title, own = _title(tree) or path.stem, tuple(_cells(tree, text, path))
+    return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines))
 
 
 def _title(tree: ast.Module) -> str | None:
