@@ -213,6 +213,33 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     editor.expect("lever.html is not written: the file of this worksheet is another one than this page")
 
 
+def test_a_line_is_written_with_the_import_of_what_it_calls(editor):
+    """The folded setup had to be found first, and its import to be known."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, box, done = file.read_bytes(), page.locator(".ms-box"), page.locator(".ms-written")
+    area = box.locator("textarea")
+    page.locator("#line-M_S > span").last.click()
+    expect(area).to_have_value("M_S = M(phi)  # [N*m] moment over the positions")
+    area.fill("M_S = M(phi) * 2**10**10 * cosh(0)  # [N*m] moment over the positions")
+    box.get_by_text("this power is a whole number of more than 10000 digits").wait_for()
+    area.fill("M_S = M(phi) * input() * cosh(0)  # [N*m] moment over the positions")
+    box.get_by_text("a line asks nobody: what is given is an input").wait_for()
+    area.fill("M_S = 2 * M(phi) * cosh(0)  # [N*m] moment over the positions")
+    box.get_by_text("the setup gets from numpy import cosh").wait_for()
+    box.get_by_text("840 N·m").wait_for()
+    assert file.read_bytes() == before
+    area.press("Enter")
+    expect(done).to_have_text(re.compile("^M_S is writtenundo"))
+    editor.expect_last_moment("840")
+    editor.expect("2 of 2 checks pass")
+    assert file.read_bytes() == before.replace(b"M_S = M(phi)", b"M_S = 2 * M(phi) * cosh(0)").replace(
+        b"import linspace, pi, sin", b"import cosh, linspace, pi, sin"
+    )
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_S is as it was")
+    assert file.read_bytes() == before
+
+
 def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
     """A screen reader said a number alone, and a line was opened by the pointer alone."""
     field = editor.page.get_by_role("textbox", name="Mmax, N·m, greatest moment> 0")
@@ -466,7 +493,7 @@ def test_mistakes_in_names_and_of_python_are_put_in_words():
     unit = bar("S_1 = 2 * mm", "S_2 = 2 * W")
     assert found.texts(told_by.unknown(unit.cells, unit.names)) == [
         "c3: line 1, S_1 = 2 * mm: the name mm is not defined in any cell "
-        "(for the unit: from mechsheet.units import mm)",
+        "(add from mechsheet.units import mm to the setup, the first cell)",
         "c4: line 1, S_2 = 2 * W: the name W is not defined in any cell",
     ]
     right = bar("S_1 = 2 * g.L")

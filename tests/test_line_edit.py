@@ -12,11 +12,12 @@ import pytest
 from conftest import ROOT
 from hypothesis import settings
 
+from mechsheet import find
 from mechsheet.page import in_place, notebook, values
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
-from mechsheet.worksheet.line_edit import Change, change, line, same_cells
+from mechsheet.worksheet.line_edit import Change, change, imported, line, same_cells
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.source import _in_file
 
@@ -85,6 +86,65 @@ def test_arguments_and_return_follow_what_a_cell_reads_and_gives() -> None:
 
 def cell(text: str, name: str) -> ast.FunctionDef:
     return next(node for node in ast.parse(text).body if isinstance(node, ast.FunctionDef) and node.name == name)
+
+
+NEW_LINES = {  # what the setup gets
+    "b = g.L * cos(g.W)  # [m] way": ["    from numpy import cos, linspace, pi, sin"],
+    "b = np.cos(g.W) * mm": ["    import numpy as np", "    from mechsheet.units import MPa, cm, mm"],
+    "k = minerr(lambda x: x**2, x=1.0).x * nan": [
+        "    from numpy import linspace, nan, pi, sin",
+        "        Used, ask, check, export, figure, find, inputs, minerr, one_of, read, summary, table, title_block, "
+        "typeset,",
+    ],
+    "k = power / angle * log(2) + sin(W) + abs(x)": [],
+    "f = lambda cos: cos(2)": [],
+}
+
+
+@pytest.mark.parametrize("new", NEW_LINES)
+def test_the_setup_imports_what_a_new_line_calls(new: str) -> None:
+    """The first line with a function of one's own had to be preceded by a search for the cell that imports.
+
+    What is as often a quantity is none, nor is the logarithm, which is that to base 10 elsewhere.
+    """
+    told = change(TEMPLATE, "n", line(TEMPLATE, "n"), new, below=True)
+    made = told.of(TEMPLATE)
+    before = TEMPLATE.splitlines()
+    assert [row for row in made.splitlines() if row not in before] == [*NEW_LINES[new], f"    {new}"]
+    assert len(made.splitlines()) == len(before) + 1 + ("np." in new)
+    assert told.back().of(made) == TEMPLATE
+    assert bool(imported(TEMPLATE, new)) == bool(NEW_LINES[new])
+
+
+@pytest.mark.parametrize(
+    ("setup", "after"),
+    [
+        ("import marimo as mo", "import marimo as mo\n    from numpy import cos"),
+        (
+            "from numpy import (\n        pi,\n        sin,\n    )",
+            "from numpy import (\n        cos,\n        pi,\n        sin,\n    )",
+        ),
+        (
+            "from numpy import (  # of formulas\n        pi, sin)",
+            "from numpy import (  # of formulas\n        pi, sin)\n    from numpy import cos",
+        ),
+        ("from numpy import sin as s\n\n    s(2)", "from numpy import sin as s\n    from numpy import cos\n\n    s(2)"),
+        ("from numpy import pi  # and more\n", "from numpy import cos, pi  # and more\n"),
+        (
+            "import mechsheet\n    from mechsheet import find",
+            "import mechsheet\n    from numpy import cos\n    from mechsheet import find",
+        ),
+        ("s = 1", "from numpy import cos\n    s = 1"),
+        ("import marimo; s = 1", "import marimo; s = 1"),
+    ],
+)
+def test_a_setup_keeps_what_else_it_holds(setup: str, after: str) -> None:
+    text = "with app.setup:\n    {}\n\n@app.cell\ndef _():\n    n = 2\n    return (n,)\n"
+    for end in ("\n", "\r\n"):
+        before = text.format(setup).replace("\n", end)
+        made = change(before, "n", "n = 2", "n = cos(2)").of(before)
+        assert made == text.format(after).replace("n = 2", "n = cos(2)").replace("\n", end)
+    assert change(text[text.index("@") :], "n", "n = 2", "n = cos(2)").of(text[text.index("@") :]).count("cos") == 1
 
 
 def test_ends_of_lines_and_a_line_of_several_rows_stay() -> None:
@@ -170,7 +230,7 @@ def test_a_line_that_is_another_one_by_now_is_left_alone() -> None:
     with pytest.raises(SheetError, match="n shares its line"):
         line(TEMPLATE.replace("n = 2 if", "m = 1; n = 2 if"), "n")
     with pytest.raises(SheetError, match="never closed"):
-        Change("n = 2 if", "n = (2 if").of(TEMPLATE)
+        Change(("n = 2 if",), ("n = (2 if",)).of(TEMPLATE)
 
 
 @pytest.mark.parametrize("path", WORKSHEETS[1::3], ids=lambda path: path.stem)
@@ -236,6 +296,44 @@ def test_what_computes_for_long_as_one_types_is_ended(monkeypatch: pytest.Monkey
         in_place._elsewhere(endless)
     running[0].join(20)
     assert not running[0].is_alive()
+
+
+BOUNDED = {
+    "10**10**9": "a whole number of more than 10000 digits",
+    "9**9**9": "a whole number of more than 10000 digits",
+    "pow(n, 9**9)": "a whole number of more than 10000 digits",
+    "1 << 10**11": "a whole number of more than 10000 digits",
+    "sum(range(10**12))": "more than 10 million elements",
+    "np.linspace(0, 1, 10**11)[0]": "more than 10 million elements",
+    "np.zeros((10**6, 10**6))[0, 0]": "more than 10 million elements",
+    "len([0] * 10**11)": "more than 10 million elements",
+    "input()": "a line asks nobody: what is given is an input",
+    "eval('9**9**9')": "a line holds no program as a text",
+}
+
+
+@pytest.mark.parametrize("new", BOUNDED)
+def test_a_step_that_python_does_not_leave_is_refused_as_one_types(new: str) -> None:
+    """The page's process stood still until it was ended."""
+    names = {"np": np, "n": 7}
+    shown = in_place._elsewhere(lambda: in_place._computed((), "k", "k = 1", f"k = {new}  # [-] k", False, names))
+    assert BOUNDED[new] in shown
+
+
+@pytest.mark.parametrize(
+    ("new", "value"),
+    [
+        ("2**3**2 - 2**-1 + (-n) ** 2 + a**0.5", "561.9"),
+        ("sum(i**2 for i in range(n**2))", "38024"),
+        ("pow(n, 3) + pow(2, 10**9, 7)", "345"),
+        ("np.arange(3)[-1] + np.zeros((2, 2)).size + np.linspace(0, 1, num=3)[1]", "6.5"),
+        ("find(lambda x: x**2 - n, 0, n).value ** 2", "7"),
+        ("m**2", "(m is a list: np.array([..]) is computed element by element)"),
+    ],
+)
+def test_what_is_bounded_is_computed_as_it_stands(new: str, value: str) -> None:
+    names = {"np": np, "n": 7, "a": 2.0, "m": [1.0], "find": find}
+    assert value in in_place._computed((), "k", "k = 1", f"k = {new}  # [-] k", False, names)
 
 
 def test_a_line_that_would_end_the_program_is_refused() -> None:

@@ -77,11 +77,14 @@ def test_a_name_that_is_to_be_imported_is_told_from_where() -> None:
     """Rather than one that is like it."""
     known = ["sin", "check", "sinus"]
     for name, source in {"sinh": "numpy", "linspace": "numpy", "pi": "numpy", "check_slope": "mechsheet"}.items():
-        assert mistakes.undefined(name, known).endswith(f"in any cell (from {source} import {name})")
+        assert mistakes.undefined(name, known).endswith(
+            f"in any cell (add from {source} import {name} to the setup, the first cell)"
+        )
+    assert "(add import numpy as np to the setup, the first cell)" in mistakes.undefined("np", known)
     assert mistakes.undefined("sinis", known).endswith("(did you mean sinus?)")
     assert mistakes.undefined("F", known, ["F"]).endswith("(did you mean g.F?)")
     assert mistakes.undefined("e", known, ["e"]).endswith("(did you mean g.e?)")
-    assert mistakes.undefined("ln", known).endswith("(from numpy import log, the natural logarithm)")
+    assert "log: add from numpy import log to the setup, the first cell)" in mistakes.undefined("ln", known)
     assert mistakes.why(TypeError("unsupported operand type(s) for +: 'float' and 'str'"), ()).endswith("is no number)")
     assert mistakes.undefined("x·y", known).endswith(" (a product is written *)")
     assert mistakes.no_input("F·g", ["F"]) == "there is no input F·g (a product is written *)"

@@ -25,13 +25,13 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.markup import as_written
 from mechsheet.document.numberless import numberless
-from mechsheet.page import editor, fields, notebook, values
+from mechsheet.page import bounded, editor, fields, notebook, values
 from mechsheet.page.needing import needing
 from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, source
 from mechsheet.worksheet.errors import SheetError, some
-from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, line, same_cells
+from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, imported, line, same_cells
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.shown import Shown
@@ -83,7 +83,7 @@ class InPlace:
         new: str = "",
         below: bool = False,
         sure: bool = False,
-        **parts: str,
+        **parts: Sequence[str],
     ) -> Any:
         """What the page is told of what it asked."""
         text, new = self.path.read_bytes().decode(), new.strip()
@@ -91,7 +91,7 @@ class InPlace:
             case "open":
                 return {"line": line(text, name), "why": "" if self.is_taken(text) else _UNSAVED}
             case "type":
-                return {"shown": self.preview(change(text, name, was, new, below).of(text), name, was, new, below)}
+                return {"shown": self.preview(text, change(text, name, was, new, below), name, was, new, below)}
             case "taken":
                 return {"taken": self.is_taken(text)}
             case "cell":
@@ -103,7 +103,7 @@ class InPlace:
         if do == "write" and not sure and (need := _needing(text, name, was, was if below else new)):
             return {"asks": need}
         if do == "write" and name.startswith(OF_INPUT):
-            self.preview(made, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
+            self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)
         return {"written": told._asdict()}
 
@@ -115,16 +115,18 @@ class InPlace:
             raise SheetError(f"this marimo tells nothing of its cells ({error}): edit the code of the cell") from None
         return same_cells(text, (cell.code for cell in cells))
 
-    def preview(self, made: str, name: str, was: str, new: str, below: bool) -> str:
-        """HTML of a line: as it is typeset with its value, and its mistakes."""
+    def preview(self, text: str, told: Change, name: str, was: str, new: str, below: bool) -> str:
+        """HTML of a line: as it is typeset with its value, its mistakes, and what the setup imports with it."""
         cells = notebook.running()[0]()
-        if not new.strip():
-            return escape(
-                _needing(self.path.read_bytes().decode(), name, was, "") or f"{name.removeprefix(OF_INPUT)} goes"
-            )
+        if not new:
+            return escape(_needing(text, name, was, "") or f"{name.removeprefix(OF_INPUT)} goes")
+        names, lines = dict(self.namespace), imported(text, new)
+        exec("\n".join(lines), names)
         if name.startswith(OF_INPUT):
-            return _elsewhere(lambda: _input(made, new, dict(self.namespace)))
-        return _elsewhere(lambda: _computed(cells, name, was, new.strip(), below, dict(self.namespace)))
+            shown = _elsewhere(lambda: _input(told.of(text), new, names))
+        else:
+            shown = _elsewhere(lambda: _computed(cells, name, was, new, below, names))
+        return shown + "".join(f"<div>{values.NOTE} the setup gets {escape(line)}</div>" for line in lines)
 
 
 class _TooLong(BaseException):
@@ -158,8 +160,10 @@ def _elsewhere(work: Callable[[], str]) -> str:
 def _run(text: str, names: dict[str, Any]) -> None:
     """Run a text whose lines can be read as those of a cell."""
     linecache.cache[_FILE] = len(text), None, text.splitlines(keepends=True), _FILE
+    code, more = bounded.compiled(text, _FILE)
+    names.update(more)
     with np.errstate(all="ignore"):
-        exec(compile(text, _FILE, "exec"), names)
+        exec(code, names)
 
 
 def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, below: bool, names: dict[str, Any]) -> str:

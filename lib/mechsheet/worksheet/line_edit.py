@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
-from mechsheet.worksheet import mistakes
+from mechsheet.worksheet import imports, mistakes
 from mechsheet.worksheet.cells import defines
 from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
@@ -29,21 +29,22 @@ _LIKE = {
 
 
 class Change(NamedTuple):
-    """A part of the file, and what stands in its place after the change."""
+    """Parts of the file, and what stands in their places after the change."""
 
-    before: str
-    after: str
+    before: Sequence[str]
+    after: Sequence[str]
 
     def of(self, text: str) -> str:
         """The text after the change.
 
-        Raises SheetError where the part is not there, or what comes out is no Python.
+        Raises SheetError where a part is not there, or what comes out is no Python.
         """
-        if text.count(self.before) != 1:
-            raise SheetError("the cell has changed since in the file: nothing is written")
-        made = text.replace(self.before, self.after)
-        _parsed(made)
-        return made
+        for before, after in zip(self.before, self.after, strict=True):
+            if text.count(before) != 1:
+                raise SheetError("the cell has changed since in the file: nothing is written")
+            text = text.replace(before, after)
+        _parsed(text)
+        return text
 
     def back(self) -> "Change":
         """The change that takes this one back."""
@@ -61,14 +62,14 @@ def line(text: str, name: str) -> str:
 def change(text: str, name: str, was: str, new: str, below: bool = False) -> Change:
     """The change of the file in which ``new`` stands in place of the line ``was`` of a name, or ``below`` it.
 
-    Without a text the line goes. Raises SheetError where the line is another one by now, ``new`` is no such line, or
-    needs what needs its cell.
+    Without a text the line goes. The setup imports what ``new`` calls and nothing gives. Raises SheetError where the
+    line is another one by now, ``new`` is no such line, or needs what needs its cell.
     """
     place = _place(text, name)
     if place.line != was:
         raise SheetError(f"the line of {name} has changed since in the file: nothing is written")
     if new == was and not below:
-        return Change(place.cell, place.cell)
+        return Change((place.cell,), (place.cell,))
     new = "\n".join(row.rstrip() for row in new.strip().split("\n"))
     if below and not new:
         raise SheetError(_LIKE[name.startswith(OF_INPUT)])
@@ -82,11 +83,30 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
     if place.cell_number is not None and _named(new) != _named("" if below else was):
         whole = text.replace(place.cell, made)
         made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
-    found = Change(place.cell, made)
+    _, setup = _imports(text, new)
+    found = Change((place.cell, *setup[:1]), (made, *setup[1:]))
     now = _circle(_parsed(found.of(text)), place.cell_number)
     if now and not _circle(_parsed(text), place.cell_number):
         raise SheetError(now)
     return found
+
+
+def imported(text: str, new: str) -> list[str]:
+    """Lines that the setup of a file gets with a line: they import what that calls and nothing gives."""
+    return _imports(text, new)[0]
+
+
+@lru_cache(maxsize=16)
+def _imports(text: str, new: str) -> tuple[list[str], tuple[str, ...]]:
+    """Lines that the setup gets with a line, and its rows before and after; nothing where it needs none, or is none."""
+    tree = _parsed(text)
+    lines = imports.lacking(new, {name for body in _bodies(tree) for node in body for name in bound(node)})
+    for node in tree.body if lines else ():
+        match node:
+            case ast.With(items=[ast.withitem(context)]) if is_app(context, ("setup",)):
+                if setup := imports.added(text, node, lines):
+                    return lines, setup
+    return [], ()
 
 
 def asked_for(text: str) -> str:

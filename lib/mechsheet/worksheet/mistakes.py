@@ -9,9 +9,8 @@ from pathlib import Path
 from traceback import walk_tb
 from types import FrameType
 
-import numpy as np
-
 from mechsheet import units
+from mechsheet.worksheet import imports
 from mechsheet.worksheet.errors import SheetError, nearest
 
 
@@ -41,29 +40,24 @@ def undefined(name: str, known: Iterable[str], inputs: Container[str] = ()) -> s
     """What is told of a name that no cell defines, with what may have been meant.
 
     >>> undefined("cos", ["cos_1"])
-    'the name cos is not defined in any cell (from numpy import cos)'
+    'the name cos is not defined in any cell (add from numpy import cos to the setup, the first cell)'
     """
-    is_unit = len(name) > 1 and name in units.names()  # a letter is as often a quantity
-    hint = f" (for the unit: from mechsheet.units import {name})" if is_unit else _imported(name) or _near(name, known)
+    line = imports.origin(name)
+    hint = f" (add {line} to {_SETUP})" if line else _near(name, known)
     hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else f" ({_PRODUCT})" if _DOT in name else hint
     hint = f" (did you mean g.{name}?)" if name in inputs else hint
     return f"the name {name} is not defined in any cell{hint}"
 
 
-def _imported(name: str) -> str:
-    """From where a function or constant of formulas is imported; "" of any other name."""
-    if name in vars(sys.modules["mechsheet"]).get("__all__", ()):
-        return f" (from mechsheet import {name})"
-    meant = getattr(np, name) if len(name) > 1 and name in np.__all__ else None
-    return f" (from numpy import {name})" if callable(meant) or isinstance(meant, float) else ""
-
-
+_SETUP = "the setup, the first cell"
 _ELSEWHERE = {  # names of other languages
     "i": "the imaginary unit is 1j", "j": "the imaginary unit is 1j", "yes": "did you mean True?",
     "no": "did you mean False?", "true": "did you mean True?", "false": "did you mean False?", "π": "did you mean pi?",
-    "ln": "from numpy import log, the natural logarithm", "lg": "from numpy import log10", "e": "from numpy import e",
-    "log": "from numpy import log, the natural logarithm; that to base 10 is log10", "np": "import numpy as np",
-    "tg": "from numpy import tan", "arctg": "from numpy import arctan",
+    "ln": f"the natural logarithm is log: add from numpy import log to {_SETUP}",
+    "log": f"log, the natural logarithm, or log10: add from numpy import log10 to {_SETUP}",
+    "lg": f"that is log10: add from numpy import log10 to {_SETUP}", "e": f"add from numpy import e to {_SETUP}",
+    "tg": f"that is tan: add from numpy import tan to {_SETUP}",
+    "arctg": f"that is arctan: add from numpy import arctan to {_SETUP}",
 }  # fmt: skip
 _DOT, _PRODUCT = "·", "a product is written *"  # which Python takes for a letter of the name
 
