@@ -63,6 +63,8 @@ LETTERS = {
     "pi_1": ("π", "1"), "nu12": ("ν", "12"), "mu": ("μ", ""), "mu_k": ("μ", "k"), "mumax": ("μ", "max"),
     "sigmav": ("σ", "v"), "phiAB": ("φ", "AB"), "etaV": ("η", "V"), "epsmin": ("ε", "min"), "lam": ("λ", ""),
     "lam_1": ("λ", "1"), "lamda": ("λ", ""), "lamda2": ("λ", "2"), "Lamda": ("Λ", ""), "Lambda_k": ("Λ", "k"),
+    "lambda_1": ("λ", "1"), "lambda2": ("λ", "2"), "lambda_max": ("λ", "max"), "iota_1": ("ι", "1"),
+    "upsilon1": ("υ", "1"), "Upsilon_1": ("Υ", "1"),
     "φ_1": ("φ", "1"), "β1": ("β", "1"), "δ_max": ("δ", "max"), "σmax": ("σ", "max"), "λ": ("λ", ""), "Ω_0": ("Ω", "0"),
     "φ_34_max": ("φ", "34,max"), "Р_1": ("Р", "1"), "Рмакс": ("Р", "макс"), "угол": ("угол", ""),
     "угол_1": ("угол", "1"), "größe": ("größe", ""), "länge_1": ("länge", "1"),
@@ -73,7 +75,7 @@ LETTERS = {
 def test_a_letter_has_its_index(name: str) -> None:
     base, index = LETTERS[name]
     assert read(name) == Symbol(base, index)
-    slanted = base if len(base) > 1 or base in "ΛΩ" else f"<i>{base}</i>"  # neither words nor Greek capitals
+    slanted = base if len(base) > 1 or base in "ΛΥΩ" else f"<i>{base}</i>"  # neither words nor Greek capitals
     assert as_written(name) == slanted + (f"<sub>{index}</sub>" if index else "")
     for written in (latex(read(name)), mathml(read(name))):
         assert "_1" not in written.replace("_{1}", "") and "\\_" not in written
@@ -102,9 +104,9 @@ def test_a_symbol_in_a_text_is_that_of_a_line() -> None:
 
 
 def test_differences_of_greek_letters() -> None:
-    assert [read(name) for name in ("dφ_1", "ΔT_1", "Δφ", "Δ_1", "dphi3", "dmax")] == [
+    assert [read(name) for name in ("dφ_1", "ΔT_1", "Δφ", "Δ_1", "dphi3", "dlambda_1", "dmax")] == [
         Symbol("φ", "1", "d"), Symbol("T", "1", "Δ"), Symbol("φ", "", "Δ"), Symbol("Δ", "1"), Symbol("φ", "3", "d"),
-        Symbol("dmax"),
+        Symbol("λ", "1", "d"), Symbol("dmax"),
     ]  # fmt: skip
     assert latex(read("λ_1")) == r"\lambda_{1}" and latex(read("Lamda")) == r"\Lambda"
     assert latex(read("Р_макс")) == r"\mathrm{Р}_{\mathrm{макс}}"

@@ -40,10 +40,7 @@ LATEX = Notation(
     r"\,\mathrm{{{}}}", r"^{{{}}}", r"\cdot ",
 )  # fmt: skip
 _LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()}
-_LETTERS |= {
-    "ε": r"\varepsilon", "φ": r"\varphi", "λ": r"\lambda", "Λ": r"\Lambda",
-    "ι": r"\iota", "υ": r"\upsilon", "Ξ": r"\Xi", "Π": r"\Pi", "Υ": r"\Upsilon",
-}  # fmt: skip
+_LETTERS |= {"ε": r"\varepsilon", "φ": r"\varphi", "Ξ": r"\Xi", "Π": r"\Pi"}
 _GREEK = re.compile(f"([{LETTERS}])")
 _MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
 _NAMED = {

@@ -6,9 +6,10 @@ from functools import cache, lru_cache
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "eps": "ε", "epsilon": "ε", "zeta": "ζ", "eta": "η",
-    "theta": "θ", "kappa": "κ", "lam": "λ", "lamda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ",
-    "sigma": "σ", "tau": "τ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ",
-    "Theta": "Θ", "Lamda": "Λ", "Lambda": "Λ", "Sigma": "Σ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
+    "theta": "θ", "iota": "ι", "kappa": "κ", "lam": "λ", "lamda": "λ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ",
+    "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
+    "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lamda": "Λ", "Lambda": "Λ", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ",
+    "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
 INDEXED = r"[^\W\d_]+\d*_\w+"  # a name that tells itself from a word: its index stands behind an underscore
 LETTERS = "".join(map(chr, range(ord("Α"), ord("ω") + 1)))  # Greek ones, as they may stand in a name themselves
@@ -18,7 +19,7 @@ IN_PROSE = rf"(?<!\d )\b(?:{INDEXED}|(?!{_OF_UNIT}\b)(?:{_WORDS})\d*)\b(?!\.\w)"
 DOUBTFUL = rf"(?:(?!{IN_PROSE})[A-Za-z]+\d\w*|(?<!\d ){_OF_UNIT}\b)"  # what may be a grade, a fit or a unit as well
 _ENDS = "(?=$|[^a-z]|min|max)"  # where an index may begin, not the rest of a word
 # Many words begin as the short ones do, such as pin, nut, multiple and chip; sigmav is a stress.
-LETTER = rf"(?:(?:pi|nu|mu|chi|lam){_ENDS}|(?!pi|nu|mu|chi|lam(?!da))(?:{_WORDS})|[{LETTERS}])"
+LETTER = rf"(?:(?:pi|nu|mu|chi|lam){_ENDS}|(?!pi|nu|mu|chi|lam(?!b?da))(?:{_WORDS})|[{LETTERS}])"
 DIFFERENCE = rf"d(?=[{LETTERS}]|(?:{_WORDS}){_ENDS})"  # that of detail is none
 _SMALL, _CAPITAL = r"a-zß-öø-ÿ\u0100-\u017fа-яё", "A-ZÀ-ÖØ-ÞА-ЯЁ"
 _NAME = re.compile(rf"(d(?=[A-Z])|{DIFFERENCE}|Δ(?=[^\W\d_]))?({LETTER}|[^\W\d_])_?(\w*)")
