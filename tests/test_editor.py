@@ -325,7 +325,13 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     tells(
         editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"), "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin() takes from"
     )
-    editor.edit("sin(phi, 1, 2, 3)", "sin(phi")
+    tells(
+        editor.edit("sin(phi, 1, 2, 3)", "2sin(phi)"),
+        "line 4, return g.F * g.L * 2sin(phi): invalid decimal literal (is a * missing? 2 * sin)",
+    )
+    editor.edit("2sin(phi)", "sin(phi) * (2^3)")
+    editor.expect("line 4, 2 ^ 3: a power is written **, not ^")
+    tells(editor.edit("sin(phi) * (2^3)", "sin(phi"), "line 4, return g.F * g.L * sin(phi: '(' was never closed")
     page.locator(".ms-title a", has_text="the cell that defines M, phi, M_S has a mistake or was deleted").wait_for()
     editor.edit("sin(phi", "sin(phi)")
     editor.expect("2 of 2 checks pass")

@@ -182,6 +182,8 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
     ("old", "new", "says"),
     [
         ("M_S = M(phi)", "M_S = M(phi)^2.0", "a power is written **, not ^"),
+        ("M_S = M(phi)", "M_S = M(phi) * 10^3", "10 ^ 3: a power is written **, not ^"),
+        ("M_S = M(phi)", "_k = 2*10^3\n    M_S = _k * M(phi)", "2 * 10 ^ 3: a power is written **, not ^"),
         ("M_S = M(phi)", "M_S = phi(2)", "is a * missing before the bracket?"),
         ("M_S = M(phi)", "M_S = M(phi) * k\n    k = 2", "k is defined below its use: move its line up"),
         ("M_S = M(phi)", "M_S = M(phi) * _k\n    _k = 2", ": _k is defined below its use: move its line up"),
@@ -206,7 +208,7 @@ def test_a_mistake_is_told_with_its_line_in_the_words_of_the_editor(
         ("M_S = M(phi)", "M_S := M(phi)", "a definition is written =, not :="),
         ("M_S = M(phi)", "if g.F < 0: j = 1\n    M_S = j", "j has no value there: none of the ways"),
         ("M_S = M(phi)", "M_S = 2 M(phi)", "is a * missing?"),
-        ("M_S = M(phi)", "M_S = 2M(phi)", "is a * missing?"),
+        ("M_S = M(phi)", "M_S = 2M(phi)", "is a * missing? 2 * M"),
         ("M_S = M(phi)", "M_S = {phi: 1}", "an array, a list or a table can be no key"),
         ("M_S = M(phi)", "k = find(sin, 0, 1); M_S = k * M(phi)", "what a Find has found is its .value"),
         ("M_S = M(phi)", "k = find(sin, 0, 1); M_S = sin(k)", "what a Find has found is its .value"),
@@ -234,6 +236,18 @@ def test_a_declaration_is_told_with_its_line(lever: Callable[..., Path]) -> None
     done = as_script(path)
     says = f"error: {path.name}, line 47: input L needs a comment with its unit, such as # [m] meaning\n"
     assert (done.stderr, done.returncode) == (says, 1)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("F: float = 1200.0", "F: float = 2 * 10^3"), ("    STEELS = {", "    K = 2 * 10^3\n    STEELS = {")],
+)
+def test_a_power_of_whole_numbers_by_a_caret_is_refused_in_inputs_and_setup(
+    old: str, new: str, lever: Callable[..., Path]
+) -> None:
+    """2 * 10^3 was 23, without a word."""
+    done = as_script(lever(old, new))
+    assert done.returncode == 1 and ", 2 * 10 ^ 3: a power is written **, not ^\n" in done.stderr
 
 
 def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:

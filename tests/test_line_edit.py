@@ -179,10 +179,11 @@ def test_a_name_that_its_cell_binds_again_can_be_edited() -> None:
     ("name", "new", "says"),
     [
         ("n", "n = 2 (3)  ]", "unmatched"),
+        ("n", "n = 2a  # [-] n", r"is a \* missing\? 2 \* a"),
         ("n", "n := 2", "a definition is written =, not :="),
         ("n", "lambda = 2", "the symbol λ is lamda"),
         ("g.F", "lambda: float = 2", "the symbol λ is lamda"),
-        ("n", "n = M(30 deg)", r"invalid syntax \(is a"),  # and not that a comma is missing
+        ("n", "n = M(30 deg)", r"invalid syntax \(is a \* missing\? 30 \* deg\)"),  # and not that a comma is missing
         ("n", "typeset()", "a line is a name and what it is"),
         ("n", "n = 1\nk = 2", "a line is a name and what it is"),
         ("n", "# only words", "a line is a name and what it is"),

@@ -59,11 +59,52 @@ SIGNS = {  # of print, which Python reads otherwise or not at all
 }
 
 
+SIGNS |= {  # slips of who writes formulas elsewhere
+    "y = 2a": "is a * missing? 2 * a",
+    "y = 1e-3m": "is a * missing? 1e-3 * m",
+    "y = (a + b) c": "is a * missing? (..) * c",
+    "y = (a + b)c": "is a * missing? (..) * c",
+    "y = 3 * 5 mm": "is a * missing? 5 * mm",
+    "y = sqrt 2": "what a function is of stands in brackets: sqrt(2)",
+    "y = 1 000": "a number has no spaces",
+    "y = 1.2.3": "a number has one point",
+    "y = 5 %": "per cent are hundredths: 0.05, shown by [%]",
+    "y = n!": "a factorial is written factorial(n), from math",
+    "y₁ = 2": "an index is written x_1",
+    "y_{12} = 2": "an index is written x_1",
+    "2y = 3": "a name begins with a letter",
+    "y = (a = 2)": "a line has one =, behind its name; what is compared is written ==",
+    "y = 2 * a = b + 1": "a line has one =, behind its name; what is compared is written ==",
+    "a + b = c": "left of = stands one name; find solves an equation",
+    "y = if a > 1: 2 else 3": "a choice is written this if condition else that",
+    "y = a && b": "conditions are joined by and, or",
+    "y = a =< b": "comparisons are written <=, >= and !=",
+    "y = 2 +": "what follows is missing",
+}
+
+
 @pytest.mark.parametrize("line", SIGNS)
 def test_signs_of_print_are_told_as_they_are_written(line: str) -> None:
     with pytest.raises(SyntaxError) as found:
         compile(line, "", "exec")
     assert mistakes.unread(found.value).endswith(f"({SIGNS[line]})")
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("y = (a + (b * 2)", "'(' was never closed: (a + (b * 2)"),
+        ("y = (a + b", "'(' was never closed"),
+        ("y = a and", "invalid syntax"),
+        ("in = 3", "in is a word of Python: take another name, such as in_1"),
+        ("y = f(a=1, 2)", "positional argument follows keyword argument"),
+        ("if y = 2:\n    z = 3", "invalid syntax (what is compared is written ==)"),
+    ],
+)
+def test_a_slip_is_told_in_one_line_without_a_second_guess(line: str, says: str) -> None:
+    with pytest.raises(SyntaxError) as found:
+        compile(line, "", "exec")
+    assert mistakes.unread(found.value) == says
 
 
 @pytest.mark.parametrize("sign", ["=", ":="])

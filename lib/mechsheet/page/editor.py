@@ -51,13 +51,13 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
         while not this.should_exit:
             time.sleep(_PERIOD)
             names = dict(namespace)  # taken before the cells are seen at rest: so they were then
-            cells = cells_now()
-            before, last = last, [(cell.cell_id, cell.code, cell.status) for cell in cells]
+            cells, broken = cells_now(), notebook.unread()
+            before, last = last, [*((cell.cell_id, cell.code, cell.status) for cell in cells), *broken]
             if last == seen or last != before or any(cell.busy for cell in cells):
                 continue
             seen = last
             gone |= {name: cell.cell_id for cell in cells for name in cell.defs}
-            notes = [*unknown(cells, names, gone), *unsaid(cells, names), *unfit(cells, names)]
+            notes = [*unread(broken), *unknown(cells, names, gone), *unsaid(cells, names), *unfit(cells, names)]
             known = {note.cell for note in notes}
             notes += [note for note in failed(cells, gone) if note.cell not in known]
             notes += lost(cells, names)
@@ -72,6 +72,12 @@ def watch(show: Callable[[list[Note]], object]) -> tuple[Note, ...]:
         return (Note("", f"mistakes are not named here: marimo {mo.__version__} tells nothing of its cells ({error})"),)
     mo.Thread(target=look, daemon=True).start()
     return ()
+
+
+def unread(broken: Iterable[tuple[str, SyntaxError]]) -> Iterator[Note]:
+    """What is no Python, in words."""
+    for cell_id, error in broken:
+        yield Note(cell_id, f"{mistakes.at('', error.lineno or 0, error.text or '')}: {mistakes.unread(error)}")
 
 
 def unknown(

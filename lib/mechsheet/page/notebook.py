@@ -5,6 +5,7 @@ A version of marimo that keeps them otherwise makes `running` raise `Unlike`, an
 
 import ast
 import builtins
+import re
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
@@ -59,6 +60,32 @@ def running() -> tuple[Callable[[], tuple[Cell, ...]], dict[str, Any]]:
             raise Unlike(str(error)) from None
 
     return cells, namespace
+
+
+def unread() -> tuple[tuple[str, SyntaxError], ...]:
+    """Cells of the calling cell's page that are no Python, by their ids; none where this marimo does not tell."""
+    try:
+        from marimo._messaging.errors import MarimoSyntaxError  # on use, as this: a version may lack it
+        from marimo._runtime.context import get_context  # on use
+
+        errors: dict[Any, Any] = get_context()._kernel.errors  # type: ignore[attr-defined]
+        told = [(str(cell_id), each) for cell_id, these in list(errors.items()) for each in these]
+        return tuple([(at, _printed(each.msg)) for at, each in told if isinstance(each, MarimoSyntaxError)])
+    except (ImportError, AttributeError):
+        return ()
+
+
+@lru_cache
+def _printed(text: str) -> SyntaxError:
+    """What cannot be read, from what Python prints of it: number and text of a line, a mark beneath, and why."""
+    found = _OF_SYNTAX.search(text)
+    if not found:
+        return SyntaxError(text, ("", 0, 0, ""))
+    number, line, mark, why = found.groups()
+    return SyntaxError(why, ("", int(number), len(mark or "") + 1, line))
+
+
+_OF_SYNTAX = re.compile(r"line (\d+)\n(?: {4}(.*)\n(?: {4}( *)[\^~]+ *\n)?)?(?:\w*Error: )(.*)")
 
 
 def stopped(cell_id: str = "") -> tuple[tuple[source.Cell, ...], tuple[Cell, ...], str]:

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
 from pathlib import Path
-from textwrap import dedent
 from types import CodeType
 from typing import Any, NamedTuple
 
@@ -20,6 +19,7 @@ from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
 from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
+from mechsheet.worksheet.refused_cells import refuse_misread, refuse_twice, refuse_unread
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
@@ -323,16 +323,15 @@ def _shared(tree: ast.Module) -> Iterator[ast.stmt]:
 
 
 def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
-    _refuse_unread(tree, path)
+    refuse_unread(tree, path)
     nodes, scopes = list(functions(tree)), {scope.get_lineno(): scope for scope in source.scopes_of(text, path)}
+    refuse_misread([*_shared(tree), *nodes], path)
     gives, section = [defines(node.body) for node in nodes], ""
     shared = {name: node.lineno for node in _shared(tree) for name in bound(node)}
-    _refuse_twice(nodes, gives, shared, path)
+    refuse_twice(nodes, gives, shared, path)
     given = frozenset(chain.from_iterable(gives))
     for n, node in enumerate(nodes):
         lines = node.body[:-1] if isinstance(node.body[-1], ast.Return) else node.body
-        if len(source.nodes(node)) > _DEEPEST:
-            _refuse_deep(lines, path)
         section = [section, *(found for text in texts(lines) for found in _SECTION.findall(constant(text)))][-1]
         # What a program other than marimo has written may read more than it names as arguments.
         others = given.difference(gives[n])
@@ -342,55 +341,6 @@ def _cells(tree: ast.Module, text: str, path: Path) -> Iterator[Cell]:
         lines, code = compiled(lines, str(path), f"_cell{n}")
         checks, closing = tuple(_checks(node)), _is_closing(node)
         yield Cell(node.name, needs, gives[n], checks, tuple(lines), code, certain, section, closing)
-
-
-_MARKS = ("cell", "function", "class_definition")  # what stands above what marimo reads
-
-
-def _refuse_unread(tree: ast.Module, path: Path) -> None:
-    """Raise SheetError for a cell that the editor keeps as a text, because it is no Python, and one without a mark."""
-    for node in tree.body:
-        match node:
-            case ast.FunctionDef() | ast.ClassDef() if not any(is_app(d, _MARKS) for d in node.decorator_list):
-                mark = "@app.class_definition" if isinstance(node, ast.ClassDef) else "@app.cell"
-                place = mistakes.place(path, node.lineno)
-                raise SheetError(f"{place}: {node.name} belongs to no cell: write {mark} in a line of its own above it")
-            case ast.Expr(ast.Call(ast.Attribute(attr="_unparsable_cell"), [ast.Constant(str(text)), *_])):
-                try:
-                    ast.parse(dedent(text))
-                    why = "it is written as none"
-                except SyntaxError as error:
-                    why = f"{(error.text or '').strip()}: {mistakes.unread(error)}"
-                raise SheetError(f"{mistakes.place(path, node.lineno)}: a cell there cannot be read: {why}")
-
-
-def _refuse_deep(lines: Iterable[ast.stmt], path: Path) -> None:
-    """Raise SheetError for a line that is too deep for whoever reads it by calling itself, as Python's own compiler."""
-    for line in lines:
-        level, depth = [line] if len(source.nodes(line)) > _DEEPEST else list[ast.AST](), 0
-        while level:
-            level, depth = [part for node in level for part in ast.iter_child_nodes(node)], depth + 1
-        if depth > _DEEPEST:
-            why = f"{depth} operations in one another, and {_DEEPEST} are read: give its parts names"
-            raise SheetError(f"{mistakes.place(path, line.lineno)}: {why}")
-
-
-def _refuse_twice(
-    nodes: Iterable[ast.FunctionDef], gives: Iterable[Iterable[str]], shared: Mapping[str, int], path: Path
-) -> None:
-    """Raise SheetError for names that two cells define, or a cell and what stands before the cells."""
-    first, twice = dict[str, int](), dict[str, list[str]]()
-    for node, names in zip(nodes, gives, strict=True):
-        for name in names:
-            if name in shared:
-                places = f"lines {shared[name]} and {node.lineno}"
-                raise SheetError(
-                    f"{path.name}, {places}: {name} is of the setup: a cell must call its own another name"
-                )
-            if first.setdefault(name, node.lineno) != node.lineno:
-                twice.setdefault(f"lines {first[name]} and {node.lineno}", []).append(name)
-    if twice:
-        raise SheetError(f"{path.name}, {'; '.join(f'{at}: {mistakes.twice(*names)}' for at, names in twice.items())}")
 
 
 def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt], CodeType]:
@@ -411,7 +361,6 @@ def compiled(lines: list[ast.stmt], path: str, own: str) -> tuple[list[ast.stmt]
     return lines, compile(ast.Module(lines, []), path, "exec")
 
 
-_DEEPEST = 300  # levels of a statement: each takes some of Python's thousand calls in one another
 _OPEN = (ast.If, ast.For, ast.While, ast.Try, ast.TryStar, ast.Match)
 
 

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet.mechanics.arguments import unmasked
 from mechsheet.units import parse
 from mechsheet.worksheet import alone, deviation, errors, limits, lines, source
+from mechsheet.worksheet.caret import caret
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.kinds import Choice, Input, Offer, Switch
 from mechsheet.worksheet.lists import Rows
@@ -110,6 +111,8 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         if not isinstance(node, ast.AnnAssign):
             continue
         name, place = ast.unparse(node.target), cell.at(line)
+        if powered := caret(node)[1]:
+            raise SheetError(f"{place}, {powered}")
         if name in places:
             raise SheetError(f"{place}: input {name} stands in the class twice")
         kind, default = cls.__annotations__[name], vars(cls).get(name)

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from mechsheet import units
 from mechsheet.worksheet import source
 from mechsheet.worksheet.branch import branches, on_its_branch, untold
+from mechsheet.worksheet.caret import caret
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.misread import misread
@@ -112,6 +113,9 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
         for name in bound(node):
             binding.setdefault(name, []).append(k)
     for k, node in enumerate(cell.body):
+        at, why = caret(node)
+        if why:
+            raise SheetError(f"{cell.at(at)}, {why}")
         match node:
             case ast.Assign([ast.Name(name)], ast.Call(ast.Name("find" | "minerr"), [f, *ends], keywords)):
                 named = {k.arg: k.value for k in keywords}

@@ -1,6 +1,7 @@
 """Mistakes in a worksheet, in words: what Python could not compute, and in which line."""
 
 import builtins
+import keyword
 import re
 import sys
 from collections.abc import Container, Iterable, Iterator, Mapping
@@ -214,9 +215,32 @@ def unread(error: SyntaxError) -> str:
         return error.msg
     if function := _FUNCTION.match(text):
         return f"a function is written {function[1]} = lambda {function[2]}: .."
-    if hint := next((f" ({hint})" for pattern, hint in _MEANT.items() if re.search(pattern, text)), ""):
-        return error.msg.removesuffix(". Perhaps you forgot a comma?") + hint  # two guesses are one too many
+    if (word := _WORD.match(text)) and keyword.iskeyword(word[1]) and word[1] != "lambda":
+        return f"{word[1]} is a word of Python: take another name, such as {word[1]}_1"
+    if error.msg.endswith("was never closed"):
+        opened = text[(error.offset or 1) - 1 :].strip()
+        return f"{error.msg}: {opened}" if text.count(opened[:1]) > 1 else error.msg
+    meant = {**_MEANT, **_EQUAL} if _EQUALS in error.msg or "cannot assign" in error.msg else _MEANT
+    if hint := next((hint for pattern, hint in meant.items() if re.search(pattern, text)), "") or _product(error, text):
+        return f"{re.sub(_GUESS, '', error.msg)} ({hint})"  # two guesses are one too many
     return error.msg
+
+
+_EQUALS = "instead of '='"
+_GUESS = r"( here)?\. (Perhaps|Maybe) .*"
+
+
+def _product(error: SyntaxError, text: str) -> str:
+    """Where a * may be missing, or brackets behind a function: between two parts that stand beside each other."""
+    for found in _BESIDE.finditer(text):
+        left, right = (part for part in found.groups() if part)
+        if found.end() < (error.offset or 0) or {left, right} & {*keyword.kwlist}:
+            continue
+        if right != "(" and imports.origin(left).startswith("from numpy"):
+            return f"what a function is of stands in brackets: {left}({right})"
+        left, right = "(..)" if left in ")]" else left, "(..)" if right == "(" else right
+        return f"is a * missing? {left} * {right}"
+    return ""
 
 
 _SEVERAL = "several values stand there: a decimal number has a point, not a comma"
@@ -243,19 +267,44 @@ _HINTS = {
 }
 _TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
 _FUNCTION = re.compile(r"\s*([^\W\d]\w*)\(([\w\s,]+)\)\s*:?=(?!=)")  # as Mathcad has it
+_WORD = re.compile(r"\s*([a-z]+)\s*(?::[^=]*)?=(?!=)")
+_BESIDE = re.compile(
+    r"(?<![\w.])(\d[\d.]*(?:[eE][-+]?\d+)?+)\s*+([^\W\d][\w.]*|\()"  # 2a
+    r"|([\w.]*\w|[)\]])\s+([\w.]*\w|\()|([)\]])([\w.]+|\()"
+)
+_CHOICE = "a choice is written this if condition else that"
+_COMPARED = "comparisons are written <=, >= and !="
+_INDEX = "an index is written x_1"
 _MEANT = {  # by the line that cannot be read
     r"^\s*lambda\s*(:[^=]*)?=": "lambda is a word of Python: the symbol λ is lamda",
     r"[·×⋅∙]": _PRODUCT,
     r"[−–]": "a minus is written -",
     r"[²³⁴]": "a power is written **",
+    r"[₀-₉]|^\s*[^\W\d]\w*(_\{|\.\d)": _INDEX,
     r"√": "a root is written sqrt(..)",
+    r"∑": "a sum is written sum(..)",
+    r"∞": "infinity is written inf, from numpy",
+    r"[½¼¾⅓⅔]": "a fraction is written 1/2",
     r"°": "an angle in degrees is written 30 * deg",
-    r"[≤≥≠]": "comparisons are written <=, >= and !=",
+    r"[≤≥≠]|<>|=<|=>": _COMPARED,
     r"[“”„«»‘’]": 'a text stands between " and "',
+    r"&&|\|\|": "conditions are joined by and, or",
     r"\|[^|]+\|": "an absolute value is written abs(..)",
     r":=": "a definition is written =, not :=",
     r"\d,\d": "a decimal number has a point, not a comma",
-    r"\d\s*[A-Za-z_(]|[\w)\]]\s+[\w(]": "is a * missing?",
+    r"\d\s+\d{3}\b": "a number has no spaces",
+    r"\d\s*%\s*($|[-+*/)])": "per cent are hundredths: 0.05, shown by [%]",
+    r"[\w)]!(?!=)": "a factorial is written factorial(n), from math",
+    r"^\s*[^\W\d]\w*'": "a name has no '",
+    r"\?.*:|=\s*if\b|\bthen\b": _CHOICE,
+    r"^\s*\d[\d.]*[^\W\d]\w*\s*=": "a name begins with a letter",
+    r"\d\.\d+\.\d": "a number has one point",
+    r"[-+*/=]\s*$": "what follows is missing",
+}
+_EQUAL = {
+    r"^\s*(if|elif|while)\b": "what is compared is written ==",
+    r"^[^=(\[{]*[-+*/][^=]*=|^\s*[\d.]+\s*=": "left of = stands one name; find solves an equation",
+    "": "a line has one =, behind its name; what is compared is written ==",
 }
 
 
