@@ -178,9 +178,8 @@ def _missing(value: Any) -> Any:
         return new
     if isinstance(value, Quantity):
         return none_like(value)
-    if not isinstance(value, ARRAYS):
-        return UNBOUND
-    return np.full(np.shape(value), complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan)
+    none = complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan
+    return np.full(np.shape(value), none) if isinstance(value, ARRAYS) else UNBOUND
 
 
 def _reached(f: Callable[..., Any]) -> list[Any]:
