@@ -50,6 +50,7 @@ SAID = [
     "{3 - g.F:+.1f} and {1e6 * g.F:,.0f} {-12345.67895 * g.F:+,.4f} {round(1000 * g.F):,}",
     "{len(g.v) - 5:+} and {g.F / 7:+.2%}",
     "{g.F:8.2f} N, {g.F:<7.1f} and {round(g.F):6d} | {g.F:^+9.2f} {'10 {:6.2f}'.format(g.F)}",
+    "{turns} turns, {turns // 2} twice, {doubled} and {halves:g} by {last}",
     "{len([x for x in (1.0, 2.0, 3.0) if x > g.F])} of 3", "{len(above)}, {'some' if above else 'none'}",
 ]  # fmt: skip
 PUT_TOGETHER = [  # or under a name, or one of two
@@ -81,10 +82,13 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         GIVEN,
         "y = g.F  # [-] y\nkind = 'long' if y > 3 else 'short'\n"
         "over = [c.name for c, v in zip(g.cases, (1, 2, 3)) if v * c.P > g.F]\n"
-        "above = [x for x in (1.0, 2.0, 3.0) if x > g.F]\nnote = f'A {g.F:.3f} {kind}'",
+        "above = [x for x in (1.0, 2.0, 3.0) if x > g.F]\nturns, doubled, halves, q = 0, 1, 0, g.F\n"
+        "while q > 0.1:\n    q, turns, doubled, halves = q * 0.7, turns + 1, 2 * doubled, halves + 0.5\n"
+        "for last in range(99):\n    q = q * 1.1\n    if q > g.F:\n        break\n"
+        "note = f'A {g.F:.3f} {kind}'",
     )
     said = (
-        f'@app.cell\ndef said_{k}(g, above, kind, over):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
+        f'@app.cell\ndef said_{k}(g, above, doubled, halves, kind, last, over, turns):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
     put = (

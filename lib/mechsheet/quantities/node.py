@@ -233,14 +233,21 @@ def is_whole(node: Node, known: Set[Node]) -> bool:
     """Whether Python has a whole number there, where it has one at all; of some it is known."""
     if node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any():  # as of most: none looks further
         return False
-    waiting, met = [node], set[Node]()
+    waiting, met, turned = [node], set[Node](), dict[Node, tuple[Node, Node]]()
     while waiting:
         part = waiting.pop()
-        if part in met or part in known or part.value.dtype.kind in "iu":
+        if part in met or part in known or (part.value.dtype.kind in "iu" and part not in turned):
             continue
         met.add(part)
+        if part in turned:
+            waiting += turned[part]
+            continue
         match part.op:
-            case "sized" | "like" | "take":
+            case "iterated":  # from the first turn on, as long as each leaves it so
+                loop, number, _ = part.args
+                turned |= zip(loop.nodes, zip(loop.initial, loop.following, strict=True), strict=True)
+                waiting.append(loop.nodes[number])
+            case "sized" | "like" | "take" | "at":
                 waiting.append(part.args[0])
             case "join":
                 waiting += part.args[0]
