@@ -343,3 +343,44 @@ def test_no_part_of_a_point_is_one_where_what_python_saw_is_another(tmp_path: Pa
     for given, known in [({"F": 3.25}, [1.5, 3.25]), ({"k": 3}, [np.nan, np.nan])]:
         found = numbers(parts, {recording.inputs[name]: x for name, x in given.items()})
         np.testing.assert_array_equal([found[part] for part in parts], known)
+
+
+OF = "from numpy.polynomial import Polynomial\n"
+POLYNOMIALS = [  # those of numpy that it advises, the lowest power first
+    f"{OF}p = Polynomial([0.0, 1.0, 2.0])\ny = p(x) + p.deriv(2)(g.a) + p.deriv(5)(x) + p.roots()[0]",
+    "p = np.polynomial.Polynomial([1.0, g.F, g.a])\ny = p(x[x > 1.0]).sum() + p.integ(2, k=[g.a, 1.0], lbnd=0.5)(x)",
+    f"{OF}p, q = Polynomial([1.0, g.F]), Polynomial([g.a, -1.0])\ny = (p * q - 2 * p + 1 - q / 3 + (1 - q) ** 2)(x)",
+    f"{OF}y = (Polynomial([1.0, g.a - 0.2]) * Polynomial([1.0, 2.0])).degree() * g.F",
+    f"{OF}y = Polynomial([-g.F, 0.5, g.a]).roots() + Polynomial([3.0, 0.5, 1.0 + g.a]).roots().imag",
+    f"{OF}p = Polynomial.fit(x, np.sin(x) * g.a, 3)\ny = p.deriv()(x) + p.convert().coef[1]",
+    f"{OF}p = Polynomial([1.0, g.a]) if g.F > 3 else Polynomial([1.0, 2.0, 3.0])\ny = p(x) + len(p)",
+    (
+        "from numpy.polynomial import polynomial as of\ny = of.polyval(x, [1.0, g.F, g.a]) + of.polyfit(x, x**2, 2)[2]"
+        "\ny += of.polyval(g.a, of.polyder([1.0, 2.0, g.F])) + of.polyval(x, of.polymul([1.0, g.a], of.polyint([g.F])))"
+    ),
+]
+
+
+@pytest.mark.parametrize("lines", POLYNOMIALS)
+def test_polynomials_of_the_lowest_power_first_follow(lines: str, tmp_path: Path) -> None:
+    """Of none but poly1d there had been numbers for other inputs: numpy's own code makes arrays of what it is given."""
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+NOT_TOLD = [
+    (
+        f"{OF}y = Polynomial.fit(x, x**3 * g.a, 3).coef[1] * 1.0",
+        "the coefficients of a fitted Polynomial but for those of convert()",
+    ),
+    (f"{OF}y = Polynomial([1.0, g.a]).linspace(5)[1]", "linspace of a Polynomial"),
+    ("from scipy.interpolate import CubicSpline\ny = CubicSpline(x, x**2 * g.a).solve(0.5)[0]", "solve of a spline"),
+]
+
+
+@pytest.mark.parametrize(("lines", "reason"), NOT_TOLD)
+def test_what_is_not_told_of_a_curve_is_named(lines: str, reason: str, tmp_path: Path) -> None:
+    """It had been said that a Curve, of which the worksheet knows nothing, has no attribute solve."""
+    assert_never_stale(lines, tmp_path)
+    (gap,) = recorded(own(tmp_path, lines))[1].gaps
+    assert gap.reason == reason

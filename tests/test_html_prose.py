@@ -88,7 +88,8 @@ def test_prose_is_that_of_the_worksheet(given: dict[str, str], blank: "Page", tm
         "note = f'A {g.F:.3f} {kind}'",
     )
     said = (
-        f'@app.cell\ndef said_{k}(g, above, doubled, halves, kind, last, over, turns):\n    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
+        f"@app.cell\ndef said_{k}(g, above, doubled, halves, kind, last, over, turns):\n"
+        f'    mo.md(rf"""A{k} {words}""")\n    return\n\n\n'
         for k, words in enumerate(SAID)
     )
     put = (

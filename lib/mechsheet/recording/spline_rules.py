@@ -72,6 +72,11 @@ class Curve:
         result = _horner(factors, at - knots[piece])
         return result if beyond else np.where((at >= knots[0]) & (at <= knots[-1]), result, np.nan)
 
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_") or not hasattr(self._own, name):
+            raise AttributeError(name)
+        raise NotRecorded(f"{name} of a spline")
+
     def derivative(self, nu: int = 1) -> "Curve":
         """Its derivative of an order; a negative one integrates."""
         if nu < 0:

@@ -26,7 +26,7 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
-from mechsheet.quantities.polynomial_rules import polynomial
+from mechsheet.quantities.polynomial_rules import Powers, polynomial
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
 from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
@@ -103,6 +103,10 @@ def instead(value: Any) -> Any:
         return _each
     if value is np.poly1d:
         return polynomial
+    if value is np.polynomial.Polynomial:
+        return Powers
+    if isinstance(value, np.polynomial.Polynomial):
+        return Powers.like(value)
     if value is Drawing:
         return drawing
     if isinstance(value, Drawing) and current.get().draws:
