@@ -653,3 +653,20 @@ def test_numbers_that_stand_in_each_other_twice_are_looked_at_once(tmp_path: Pat
     sheet = own(tmp_path, f"c0 = 1.1  # [-] first\n{chain}y = g.F * c30  # [-] last")
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
     assert proof_of(names, sheet, record(names, sheet, whole=True, exact=True)).check(9).passed
+
+
+SIZES = "sizes = np.array([0.032, 0.04, 0.05])\n"
+CHOSEN_TWICE = [
+    f"{SIZES}d = next(size for size in sizes if size >= 0.01 * g.F)\ny = [*sizes].index(d) + g.a  # [-] y",
+    f"{SIZES}d = sizes[1] if g.F > 2 else sizes[2]\ny = (2.0 if d == 0.04 else 3.0) * g.F  # [-] y",
+    f"{SIZES}d = sizes[np.argmax(sizes > 0.012 * g.F)]\ny = (2.0 if d <= 0.032 else 3) * g.F  # [-] y",
+    "d = {2: 0.1, 3: 0.3}[g.k]\ny = (2.0 if d < 0.1 else 3.0 if d in (0.1, 0.2) else 4.0) * g.F  # [-] y",
+]
+
+
+@pytest.mark.parametrize("lines", CHOSEN_TWICE)
+def test_a_decimal_that_is_chosen_is_the_one_that_is_written(lines: str, tmp_path: Path) -> None:
+    """Of a standard size no digit was proved: 0.04 was not the float that it is compared with, or not surely itself."""
+    sheet = own(tmp_path, lines)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path, "g": sheet.inputs()}
+    assert proof_of_wanted(names, sheet, ["y"]).least["results"].least > 15

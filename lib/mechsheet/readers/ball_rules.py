@@ -8,11 +8,12 @@ surely does not, and `UNDECIDED` where the balls of what it compares do not tell
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from functools import cache
 from operator import add, mul, neg, sub
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import arb, ctx
 
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import Values
@@ -135,6 +136,11 @@ def _compared(surely: Callable[[Any, Any], bool], surely_not: Callable[[Any, Any
     return compare
 
 
+def _alike(a: Any, b: Any) -> bool:
+    """Whether surely equal: the same exact number, or one number as somebody has written it, chosen twice."""
+    return bool(a == b) or (a is b and id(a) in _DECIMALS)
+
+
 def _apart(a: Any, b: Any) -> bool:
     return bool(a.is_finite() and b.is_finite() and not a.overlaps(b))
 
@@ -153,11 +159,11 @@ SINGLE: dict[str, Callable[..., Any]] = {
     "sign": _of_number(lambda a: a.sgn()), "floor": _of_number(_floor), "round": _of_number(_rounded),
     "mod": _of_numbers(_remainder), "pow": _power, "where": _chosen,
     "max": _of_numbers(arb.max), "min": _of_numbers(arb.min),
-    "lt": _compared(lambda a, b: a < b, lambda a, b: a >= b, 0.0),
-    "le": _compared(lambda a, b: a <= b, lambda a, b: a > b, 0.0),
-    "gt": _compared(lambda a, b: a > b, lambda a, b: a <= b, 0.0),
-    "ge": _compared(lambda a, b: a >= b, lambda a, b: a < b, 0.0),
-    "eq": _compared(lambda a, b: a == b, _apart, 0.0), "ne": _compared(_apart, lambda a, b: a == b, 1.0),
+    "lt": _compared(lambda a, b: a < b, lambda a, b: a >= b or _alike(a, b), 0.0),
+    "le": _compared(lambda a, b: a <= b or _alike(a, b), lambda a, b: a > b, 0.0),
+    "gt": _compared(lambda a, b: a > b, lambda a, b: a <= b or _alike(a, b), 0.0),
+    "ge": _compared(lambda a, b: a >= b or _alike(a, b), lambda a, b: a < b, 0.0),
+    "eq": _compared(_alike, _apart, 0.0), "ne": _compared(_apart, _alike, 1.0),
     "and": min, "or": max, "not": lambda c: 1.0 - c, "finite": _is_finite,
     "like": lambda a, *_: a, "sized": lambda a, same: a if same == 1.0 else _UNKNOWN,
 }  # fmt: skip
@@ -192,7 +198,18 @@ def constant(x: Any) -> Any:
         return arb.pi() * (p if x > 0 else -p) / q
     if is_computed(x):
         return arb(x, abs(x) * _COMPUTED)
-    return ball(x) if not isinstance(x, float) or not np.isfinite(x) or _is_binary(x) else arb(repr(x))
+    return ball(x) if not isinstance(x, float) or not np.isfinite(x) or _is_binary(x) else _written(x, ctx.prec)
+
+
+@cache
+def _written(x: float, _precision: int) -> Any:
+    """The ball of a decimal fraction, the same one wherever it is written: by it two of them are known to be equal."""
+    made = arb(repr(x))
+    _DECIMALS[id(made)] = made
+    return made
+
+
+_DECIMALS = dict[int, Any]()
 
 
 def _is_binary(x: float) -> bool:

@@ -81,7 +81,9 @@ class Balls:
             return self.of(node.args[2:])[0]
         if node.op in ELEMENTWISE:
             values = [self.known[operand] for operand in node.args]
-            if node.op in ("eq", "ne"):  # with a number as Python saw it, it is the float that it is
+            if node.op in ("eq", "ne") and not any(
+                map(_is_chosen, node.args)
+            ):  # as Python saw it, a number is its float
                 values = [_exact(v, operand) for v, operand in zip(values, node.args, strict=True)]
             if node.op in ("and", "or", "not"):
                 values = [_array(_conditions, v) for v in values]
@@ -346,6 +348,23 @@ def _array(f: np.ufunc, values: Values) -> Values:
 def _exact(values: Values, node: Node) -> Values:
     number = node.op == "constant" and node.value.dtype != bool
     return _array(_balls, node.value.astype(object)) if number else values
+
+
+_CHOOSING = {"where": slice(1, 3), "take": slice(1), "at": slice(1), "like": slice(1)}  # what they choose among
+
+
+def _is_chosen(node: Node) -> bool:
+    """Whether one of several numbers that somebody has written."""
+    waiting, met = [node], set[Node]()
+    while waiting:
+        part = waiting.pop()
+        if part in met or (part.op == "constant" and part is not node):
+            continue
+        met.add(part)
+        if part.op != "join" and part.op not in _CHOOSING:
+            return False
+        waiting += part.args[0] if part.op == "join" else part.args[_CHOOSING[part.op]]
+    return True
 
 
 def _is_condition(values: Values) -> bool:
