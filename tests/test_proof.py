@@ -657,6 +657,10 @@ def test_numbers_that_stand_in_each_other_twice_are_looked_at_once(tmp_path: Pat
 
 SIZES = "sizes = np.array([0.032, 0.04, 0.05])\n"
 CHOSEN_TWICE = [
+    (
+        f"{SIZES}def not_below(d):\n    for size in sizes:\n        if size >= d:\n            return size\n"
+        "    return math.nan\ny = [*sizes].index(not_below(0.0141 * g.F)) + g.a  # [-] y"
+    ),
     f"{SIZES}d = next(size for size in sizes if size >= 0.01 * g.F)\ny = [*sizes].index(d) + g.a  # [-] y",
     f"{SIZES}d = sizes[1] if g.F > 2 else sizes[2]\ny = (2.0 if d == 0.04 else 3.0) * g.F  # [-] y",
     f"{SIZES}d = sizes[np.argmax(sizes > 0.012 * g.F)]\ny = (2.0 if d <= 0.032 else 3) * g.F  # [-] y",

@@ -350,7 +350,9 @@ def _exact(values: Values, node: Node) -> Values:
     return _array(_balls, node.value.astype(object)) if number else values
 
 
-_CHOOSING = {"where": slice(1, 3), "take": slice(1), "at": slice(1), "like": slice(1)}  # what they choose among
+_CHOOSING = {  # what they choose among
+    "where": slice(1, 3), "iterated": slice(2, 3), **dict.fromkeys(("take", "at", "like", "sized"), slice(1)),
+}  # fmt: skip
 
 
 def _is_chosen(node: Node) -> bool:
