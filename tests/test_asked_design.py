@@ -75,6 +75,28 @@ def test_a_requirement_whose_limit_is_0_may_have_any_size(size, tmp_path):
     assert "held by w >= 0: to the first order none near it is better" in told[-2] and "is worse" in told[-2]
 
 
+@pytest.mark.parametrize(
+    ("lines", "options", "F", "a"),
+    [
+        (["v = np.floor(3 * g.F) - 2 * g.F - g.a"], ["--best=max v"], 13 / 3, 0.1),  # a step and a bound
+        (
+            ["v = (np.ceil(g.F) + 0.1) * g.a", "w = g.F * g.a"],
+            ["--need=w >= 2", "--best=min v"],
+            4.0,
+            0.5,
+        ),  # and a limit
+    ],
+)
+def test_a_design_stands_at_the_edge_of_a_step(lines, options, F, a, tmp_path):
+    """Slopes lead beyond a step, so that the design stayed where the search had come by, a little off the best."""
+    sheet = own(tmp_path, "\n".join(f"{line}  # [-] result" for line in lines))
+    problem = asked(sheet, "--vary=F=0..4.5", "--vary=a=0.1..0.7", *options)
+    chosen, told = asked_design.best(problem)
+    assert chosen["a"] == pytest.approx(a, abs=1e-6) and chosen["F"] == pytest.approx(F, abs=1e-6)
+    judged = problem.judge({x: np.array([value]) for x, value in chosen.items()})
+    assert all(r.missed[0] == 0 for r in judged.requirements) and "variants near it" in "\n".join(told)
+
+
 def test_two_inputs_with_requirements_make_a_scene_that_passes(sheet, tmp_path, monkeypatch, capsys):
     options = ["--vary", "F=0..5", "--vary", "a=0.1..1", "--need", "w <= 1.75", "--best", "max p", "--n=4"]
     monkeypatch.setattr(sys, "argv", ["design", sheet.path, *options, f"--out={tmp_path}"])

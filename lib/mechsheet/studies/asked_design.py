@@ -1,7 +1,7 @@
 """What would it take: ``design NAME --vary=INPUT=LEAST..GREATEST --need=REQUIREMENT --best=GOAL`` for any worksheet.
 
-Several inputs within bounds are searched and then refined by slopes; one input and one value of a result are solved.
-The page asks the same in the same words.
+Several inputs within bounds are searched, then refined by slopes, or beside a step by variants near it; one input and
+one value of a result are solved. The page asks the same in the same words.
 """
 
 import re
@@ -19,6 +19,7 @@ from mechsheet.run import arguments, batch, report
 from mechsheet.run.ending import say, watch
 from mechsheet.run.progress import progress
 from mechsheet.studies import design, refined
+from mechsheet.studies.optimum import WORSE
 from mechsheet.studies.sensitivity import continuous, point, solved
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs, numbers
@@ -293,19 +294,42 @@ def best(problem: Problem, done: Callable[[], object] = lambda: None) -> tuple[d
 
 
 def _refined(problem: Problem, found: design.Design) -> tuple[dict[str, float], list[str]]:
-    """What slopes make of the design of a search, that design itself where this is no better; and what they say."""
+    """What slopes make of the design of a search, and where they tell of no optimum as many variants near it again.
+
+    Of a step slopes know nothing: they lead beyond it, say that a slope is left at its edge, or that a tread is level.
+    """
+    chosen, told = _by_slopes(problem, found.inputs, found.goal)
+    if told[-1].endswith(WORSE):
+        return chosen, told
+    before = float(problem.judge(_alone(chosen)).goal[0])
+    near = design.beside(problem.judge, problem.bounds, chosen, found.tried)
+    judged = problem.judge(_alone(near))
+    if design.energies(judged)[0] >= -before:
+        return chosen, [*told, f"none of {found.tried} variants near it is better"]
+    nearer = (
+        f"refined by {found.tried} variants near it, for slopes know no steps: {problem.goal(float(judged.goal[0]))}"
+    )
+    said = [text for text in told if not text.startswith("the conditions")]
     try:
-        slopes = refined.Slopes(problem, found.inputs)
+        return near, [*said, nearer, refined.Slopes(problem, near).conditions(near)]
+    except SheetError:
+        return near, [*said, nearer]
+
+
+def _by_slopes(problem: Problem, start: dict[str, float], goal: float) -> tuple[dict[str, float], list[str]]:
+    """What slopes make of a design, that design itself where this is no better; and what they say."""
+    try:
+        slopes = refined.Slopes(problem, start)
         chosen = slopes.refined()
         judged = problem.judge(_alone(chosen))
         missed = [f"a design that misses {r.name}" for r in judged.requirements if r.missed[0] != 0]
         reason = [f"a design that has no value: {judged.reasons[0]}"] if judged.reasons[0] else missed
-        if not reason and judged.goal[0] >= found.goal:
+        if not reason and judged.goal[0] >= goal:
             return chosen, [f"refined by slopes: {problem.goal(float(judged.goal[0]))}", slopes.conditions(chosen)]
         lead = (reason or ["no better one"])[0]
-        return found.inputs, [f"not refined by slopes: they lead to {lead}", slopes.conditions(found.inputs)]
+        return start, [f"not refined by slopes: they lead to {lead}", slopes.conditions(start)]
     except SheetError as error:
-        return found.inputs, [f"not refined by slopes: {error}"]
+        return start, [f"not refined by slopes: {error}"]
 
 
 def _alone(chosen: Mapping[str, float]) -> dict[str, Array]:

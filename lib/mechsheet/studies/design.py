@@ -6,7 +6,7 @@ The search knows nothing of mechanisms: a worksheet says what a variant is worth
 import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, Context
 from functools import partial
 from typing import Any
@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 _FAR = 1e60  # energies of variants that miss a requirement lie above those of all that hold them, in any unit
 _INSIDE = 1 - 1e-12  # a start at a bound must not be outside by rounding; it is rounded back to it
 _LOST = 1e150  # and of those that have no value above all others; its square is still a number
+_ROUNDS, _REACH, _DECADES = 50, 0.1, 3  # of variants beside a design: how far off of the ranges, spread over what sizes
+_KEPT = 1e-9  # of a limit: their reserve of each requirement, so that rounding breaks none
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,10 @@ class Requirement:
     def missed(self) -> Array:
         """By what part of its limit it is missed; 0 where it is kept."""
         return np.maximum(0.0, -self.reserve) / (abs(self.limit) or 1.0)
+
+    def stricter(self, part: float) -> "Requirement":
+        """The same with a limit that is stricter by a part of it."""
+        return replace(self, limit=self.limit + (1 if self.at_least else -1) * part * abs(self.limit))
 
     def check(self) -> Check:
         """The requirement of a single variant."""
@@ -240,6 +246,31 @@ def _evolved(
     )
     chosen = variants(found.x[:, None])
     return {name: float(column[0]) for name, column in chosen.items()}, judge(chosen), tried, found.population_energies
+
+
+def beside(
+    judge: Judge, bounds: Mapping[str, tuple[float, float]], design: Mapping[str, float], count: int
+) -> dict[str, float]:
+    """The best of about ``count`` variants nearer and nearer to a design, itself among them: at the edge of a step.
+
+    The inputs that move, and how far, are drawn anew for each variant; the reach is halved where none is better.
+    """
+    random, names = np.random.default_rng(0), list(bounds)
+    low, high = np.array([*bounds.values()]).T
+    best, least, reach = np.array([design[x] for x in names]), np.inf, _REACH
+    members = max(count // _ROUNDS, 8)
+    for _ in range(_ROUNDS):
+        far = reach * 10.0 ** random.uniform(-_DECADES, 0, (members, 1))
+        moving = random.random((members, len(names))) < random.uniform(0.3, 1, (members, 1))
+        moves = random.normal(size=moving.shape) * moving * far * (high - low)
+        moves[0] = 0
+        near = np.clip(best + moves, low, high)
+        judged = judge(dict(zip(names, near.T, strict=True)))
+        energy = energies(replace(judged, requirements=tuple(r.stricter(_KEPT) for r in judged.requirements)))
+        k = int(np.argmin(energy))
+        better, least = energy[k] < least and k > 0, energy[k]
+        best, reach = near[k], reach if better else reach / 2
+    return dict(zip(names, best.tolist(), strict=True))
 
 
 def pareto(a: Array, b: Array) -> NDArray[np.intp]:

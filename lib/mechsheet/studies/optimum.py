@@ -15,6 +15,7 @@ from mechsheet.worksheet import numbers
 
 Array = NDArray[np.float64]
 
+WORSE = "each one near it is worse"  # what is said ends so where that is known
 _HOLDS = 1e-6  # of what the goal varies by over the bounds: what may be left of its slope at an optimum, or of a bend
 _ROUNDING = 1e-12  # of the slope of the goal
 _ACTIVE = 1e-6  # of its size: a constraint that has less reserve holds the design
@@ -76,7 +77,7 @@ def _second(here: At, holding: Sequence[int], rows: Array, factors: Array, names
     """
     bare, free = _ways(rows[factors > _HOLDS]), _ways(rows)
     if not bare.size:
-        return False, "what holds it leaves no way free, so that each one near it is worse"
+        return False, f"what holds it leaves no way free, so that {WORSE}"
     count = len(names)
     pairs = [(i, j) for i in range(count) for j in range(i, count)]
     units = np.eye(count)
@@ -92,7 +93,7 @@ def _second(here: At, holding: Sequence[int], rows: Array, factors: Array, names
             H[i, j] = H[j, i] = (bend[i, j] - bend[i, i] - bend[j, j]) / 2
     most, way = _most(bare, H)
     if most < -_HOLDS:
-        return False, "to the second order each one near it is worse"
+        return False, f"to the second order {WORSE}"
     if free.size:
         most, way = _most(free, H)
     moved = {x: d for x, d in zip(names, way * np.sign(way[np.argmax(np.abs(way))]), strict=True) if abs(d) > 0.01}
