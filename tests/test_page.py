@@ -178,6 +178,31 @@ def test_no_file_is_made_of_a_page_that_is_not_computed_to_its_end(serve, browse
             until(page, refused, f"{file} is made")
 
 
+def test_escape_brings_back_what_a_field_held(page):
+    """What was typed and not computed with stayed, and went to the page with the next click."""
+    field = page.locator("td[data-input=P6] input")
+    refused = page.locator(".ms-told")
+    field.fill("abc")
+    field.press("Escape")
+    expect(field).to_have_value("27500")
+    field.press("Tab")
+    drawn(page)
+    expect(refused).to_be_hidden()
+    field.fill("25000")
+    field.press("Enter")
+    field.fill("26000")
+    field.press("Escape")
+    expect(field).to_have_value("25000")
+    field.fill("27500")
+    field.press("Enter")
+
+
+def test_a_slider_says_what_it_moves(page):
+    """A screen reader said a number alone."""
+    names = page.get_by_role("slider", name="part of the stroke")
+    until(page, lambda: names.count() == page.get_by_role("slider").count() > 0, "a slider has no name")
+
+
 def test_slider_moves_the_scheme(page):
     scheme = page.locator("div:has-text('Figure 2.1') > svg, div:has(> svg)").locator("svg[viewBox]").first
     before = scheme.inner_html()

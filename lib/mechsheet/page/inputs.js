@@ -32,6 +32,23 @@
   };
   ["input", "change", "click"].forEach((kind) => document.addEventListener(kind, byHand, true));
 
+  // Esc takes back what is typed into a field, or into a cell of a grid, and not computed with yet.
+  let held; // the field in which one types, and what it held before
+  const typedInto = (event) => {
+    const field = event.target.closest?.("td[data-input]") && event.composedPath()[0];
+    return field?.matches?.("input:not([type=checkbox]), textarea") ? field : undefined;
+  };
+  const hold = (event) => (held = { field: typedInto(event), text: typedInto(event)?.value });
+  document.addEventListener("focusin", hold);
+  document.addEventListener("keydown", (event) => {
+    const field = typedInto(event);
+    if (field && event.key === "Enter") return hold(event);
+    if (!field || event.key !== "Escape" || field !== held?.field || field.value === held.text) return;
+    setter(field.constructor).call(field, held.text);
+    field.dispatchEvent(new InputEvent("input", { bubbles: true, composed: true }));
+    field.select?.();
+  });
+
   const setter = (kind) => Object.getOwnPropertyDescriptor(kind.prototype, "value").set;
   const same = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 

@@ -100,11 +100,22 @@
     });
   }
 
+  // marimo's controls have their labels beside them: a screen reader would say a number alone.
+  function call(host) {
+    const control = host?.shadowRoot?.querySelector("[role=slider], input, select, textarea");
+    const label = document.createElement("div");
+    label.innerHTML = JSON.parse(host?.dataset.label ?? "null") ?? "";
+    if (control && label.textContent && !control.ariaLabel) control.ariaLabel = label.textContent;
+  }
+  const callAll = () => document.querySelectorAll("marimo-ui-element > [data-label]").forEach(call);
+  document.addEventListener("focusin", ({ target }) => call(target.closest?.("[data-label]"))); // drawn since
+
   // Cells out of sight are laid out once, so that the browser knows their heights and the outline leads to its places.
   const page = document.documentElement;
 
   function measure() {
     selectByClass();
+    callAll();
     page.classList.add("ms-measure");
     requestAnimationFrame(() =>
       requestAnimationFrame(() => {
