@@ -300,6 +300,13 @@ def test_files_that_would_overwrite_one_another_are_refused(tmp_path):
     assert book.read_bytes() == b"edited by hand"
 
 
+def test_more_scenes_than_a_sheet_has_columns_are_refused_at_once(tmp_path):
+    """They were computed, and those behind the last column were not in the workbook that was said to be written."""
+    many = [f"s{k}.toml" for k in range(16382)]
+    with pytest.raises(SheetError, match="16382 scenes have no room side by side in a workbook: at most 16381"):
+        batch.run(str(HITCH), [*many, f"--out={tmp_path}"])
+
+
 def test_an_edited_workbook_is_a_scene_like_another(tmp_path, capsys):
     assert as_script(HITCH, f"--out={tmp_path}").returncode == 0
     book = load_workbook(tmp_path / "hitch.xlsx")

@@ -86,6 +86,9 @@ def test_all_parts_of_a_scene_file(tmp_path):
         ('want = "GS6"\n', r"want = 'GS6' must be a list of names"),
         ("want = []\n", r"want = \[\] must be a list of names"),
         ("want = [6]\n", r"want = \[6\] must be a list of names"),
+        ("[inputs]\nP6 = 3\nP6 = 4\n", r"is no valid TOML: .*; P6 is given twice"),
+        ('[inputs]\n"\u00b5" = 3\n"\u03bc" = 4\n', r"\u03bc is given twice"),  # the second one counted silently
+        ('[limits]\n"\u00b5" = {min = 3}\n"\u03bc" = {min = 1}\n', r"\u03bc is given twice"),
         ("limits = 1\n", r"limits = 1 must be a table \[limits\]"),
         ("[limits]\nGS6 = 3\n", r"limit GS6 = 3 must be \{min = NUMBER\}, \{max = NUMBER\} or both"),
         ("[limits]\nGS6 = {least = 3}\n", r"limit GS6 = \{'least': 3\} must be \{min"),
@@ -100,6 +103,14 @@ def test_bad_scene_file_is_named(tmp_path, text, message):
     with pytest.raises(SheetError, match=message) as error:
         arguments.read([f"--scene={file}"], FIELDS)
     assert str(file) in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "latin-1"])
+def test_another_encoding_is_told(tmp_path, encoding):
+    file = tmp_path / "scene.toml"
+    file.write_bytes("[inputs]\nP6 = 3 # größer\n".encode(encoding))
+    with pytest.raises(SheetError, match=r"scene\.toml is no text in UTF-8: save it in that encoding"):
+        arguments.read([f"--scene={file}"], FIELDS)
 
 
 @pytest.mark.parametrize("name", ["none.toml", "none.xlsx"])

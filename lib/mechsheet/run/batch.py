@@ -36,6 +36,7 @@ from mechsheet.worksheet.table import Column, Table
 from mechsheet.worksheet.verdict import lacking, listen
 
 _GAP = 2  # characters between columns
+_MOST = 16384 - 3  # columns of a workbook's sheet behind symbol, unit and meaning
 
 
 @dataclass(frozen=True)
@@ -283,7 +284,7 @@ def _workbook(sheet: Worksheet, file: Path) -> str:
 
 
 def _distinct(sheet: Worksheet, files: Sequence[Path], out: Path | None) -> None:
-    """Refuse scenes that would overwrite one another, or be overwritten themselves."""
+    """Refuse scenes that would overwrite one another, be overwritten themselves, or be left out of the workbook."""
     seen = dict[str, Path]()
     for file in files:
         name = _workbook(sheet, file)
@@ -291,6 +292,8 @@ def _distinct(sheet: Worksheet, files: Sequence[Path], out: Path | None) -> None
             raise SheetError(f"scene {file} has the name of {seen.get(name, 'the summary')}")
         seen[name] = file
     if out:
+        if len(files) > _MOST:
+            raise SheetError(f"{len(files)} scenes have no room side by side in a workbook: at most {_MOST}, in parts")
         written = {(out / name).resolve() for name in (*seen, _summary(sheet))}
         for file in files:
             if file.resolve() in written:

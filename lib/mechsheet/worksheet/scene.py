@@ -89,7 +89,9 @@ def load(path: Path) -> Scene:
         raise SheetError(f"scene {path} cannot be read: {error.strerror}") from None
     except RecursionError:
         raise SheetError(f"scene {path} is no valid TOML: its brackets are nested too deep") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError:
+        raise SheetError(f"scene {path} is no text in UTF-8: save it in that encoding") from None
+    except tomllib.TOMLDecodeError as error:
         raise SheetError(f"scene {path} is no valid TOML: {error}{_unquoted(text, str(error))}") from None
     except ValueError:
         raise SheetError(f"scene {path}: a whole number of thousands of digits cannot be used") from None
@@ -97,12 +99,14 @@ def load(path: Path) -> Scene:
 
 
 def _unquoted(text: str, error: str) -> str:
-    """What a scene needs quotes for, where that may be what is wrong."""
+    """What a scene needs quotes for or gives twice, where that may be what is wrong."""
     at = re.search(r"at line (\d+)", error)
     line = text.splitlines()[int(at[1]) - 1] if at else ""
     bare = re.match(r"\s*([^\W\d]\w*)\s*=", line)
     if bare and not bare[1].isascii():
         return f'; a name with other letters than a..z stands in quotes: "{bare[1]}"'
+    if bare and error.startswith("Cannot overwrite"):
+        return f"; {bare[1]} is given twice"
     comma = re.search(r"=\s*([+-]?\d+,\d+)", text)
     return f'; a number with a comma stands in quotes: "{comma[1]}"' if comma else ""
 
@@ -121,9 +125,18 @@ def _scene(path: Path, content: dict[str, Any]) -> Scene:
     proof = (
         digits(f"scene {path}: proof = {as_given(content['proof'])}", content["proof"]) if "proof" in content else None
     )
-    limited = {as_read(name): _limit(path, name, x) for name, x in limits.items()}
-    named = {as_read(name): value for name, value in inputs.items()}
-    return Scene(named, None, tuple(dict.fromkeys(map(as_read, want or ()))), limited, proof)
+    limited = {name: _limit(path, name, x) for name, x in _as_read(path, limits).items()}
+    return Scene(_as_read(path, inputs), None, tuple(dict.fromkeys(map(as_read, want or ()))), limited, proof)
+
+
+def _as_read(path: Path, table: dict[str, Any]) -> dict[str, Any]:
+    """A table with its names as Python reads them; SheetError where two are the same one then."""
+    named = dict[str, Any]()
+    for name, value in table.items():
+        if as_read(name) in named:
+            raise SheetError(f"scene {path}: {as_read(name)} is given twice")
+        named[as_read(name)] = value
+    return named
 
 
 def as_read(name: str) -> str:
