@@ -392,3 +392,17 @@ def test_a_field_of_points_on_an_axis_is_one_of_points(tmp_path: Path) -> None:
     parts = [*recording.values["P"].parts]
     found = numbers(parts, {recording.inputs["a"]: 3.0})
     np.testing.assert_array_equal([found[part] for part in parts], [[3.0] * 5, [0.0] * 5])
+
+
+AMONG = [
+    "y = np.where(np.isin(x, [x[1], g.F]), x, g.a) + np.isin(g.k, [2, 3])",
+    "y = x[~np.isin(np.arange(len(x)), [0, g.k])].sum() + np.isin([[1, 2], [g.k, 4]], [[2]], invert=True).sum() * g.a",
+    "y = 'ABCDE'.index('C' if g.a < 1 else 'D') * g.F",
+]
+
+
+@pytest.mark.parametrize("lines", AMONG)
+def test_what_is_among_others_follows(lines: str, tmp_path: Path) -> None:
+    """It was an array made of a quantity, or must be str, not Written."""
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps

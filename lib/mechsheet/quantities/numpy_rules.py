@@ -299,6 +299,12 @@ def _broadcast_arrays(graph: Graph, *x: Any) -> list[Quantity]:
     return [array.like(*shapes.values()) for array in arrays]
 
 
+def _is_among(graph: Graph, x: Any, several: Any, assume_unique: bool = False, invert: bool = False) -> Any:
+    """numpy's isin."""
+    same = (lift(graph, x)[..., None] == lift(graph, several).ravel()).reduced("any", -1)
+    return ~same if invert else same
+
+
 def _real(graph: Graph, x: Any) -> Any:
     return lift(graph, x).real
 
@@ -344,7 +350,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.nanprod: lambda graph, x, axis=None: filled_up(graph, x, 1.0).reduced("prod", axis),
     np.nancumsum: lambda graph, x, axis=None: _so_far("sum")(graph, filled_up(graph, x, 0.0), axis),
     np.nanvar: known_variance, np.nanstd: lambda graph, *args, **rest: np.sqrt(known_variance(graph, *args, **rest)),
-    np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close,
+    np.select: _selected, np.piecewise: _piecewise, np.clip: _clipped, np.isclose: _close, np.isin: _is_among,
     math.isclose: _near, bisect_left: searched, bisect_right: lambda graph, a, x: searched(graph, a, x, "right"),
     np.allclose: lambda graph, *args, **rest: _close(graph, *args, **rest).reduced("all"),
     np.nan_to_num: lambda graph, x, nan=0.0: choice(graph, finite(lift(graph, x)), x, nan),
@@ -359,7 +365,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     ),
     **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack)},
     np.block: blocks, np.unravel_index: place_of,
-    **{f: _seen(f) for f in (np.argwhere, np.unique, np.isin)},
+    **{f: _seen(f) for f in (np.argwhere, np.unique)},
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
         np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,

@@ -364,7 +364,7 @@ def _is_above(x: Any, y: Any) -> Any:
 def placed(values: Any, value: Any) -> Any:
     """``values.index(value)``: the first place of a number in a list."""
     if not isinstance(values, list | tuple) or not has_quantity([values, value]):
-        return values.index(value)
+        return values.index(str(value) if isinstance(values, str) else value)
     if not all(isinstance(v, NUMBERS) for v in (*values, value)):
         return values.index(value)
     hit = lift(current.get(), values) == value
