@@ -341,7 +341,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.polyval: polynomial_rules.value, np.polyder: polynomial_rules.derivative, np.polyint: polynomial_rules.integral,
     np.convolve: polynomial_rules.convolved, np.polymul: polynomial_rules.convolved,
     np.polyadd: polynomial_rules.added, np.polysub: lambda graph, p, q: np.polyadd(p, -lift(graph, q)),
-    np.roots: polynomial_rules.roots, **polynomial_rules.LOWEST_FIRST,
+    np.roots: polynomial_rules.roots,
     np.diag: diagonal, np.triu: upper, np.tril: lower, np.linalg.matrix_power: matrix_power,
     np.linalg.multi_dot: products,
     **{f: transformed(f) for f in (np.fft.fft, np.fft.ifft, np.fft.rfft, np.fft.irfft)},

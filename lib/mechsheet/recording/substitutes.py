@@ -26,7 +26,7 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
-from mechsheet.quantities.polynomial_rules import Powers, polynomial
+from mechsheet.quantities.polynomial_rules import polynomial
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
 from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
@@ -97,16 +97,17 @@ def instead(value: Any) -> Any:
         return refusing
     if isinstance(value, BuiltinFunctionType) and value in MATH:
         return _takes(MATH[value], value)
+    if str(getattr(value, "__module__", "")).startswith("numpy.polynomial"):
+        from mechsheet.quantities import lowest_first  # on use: numpy loads these on use too
+
+        if (powers := lowest_first.instead(value)) is not value:
+            return powers
     if isinstance(value, np.ufunc) or (callable(value) and _of_numpy(value)):
         return _takes(value)
     if value is np.vectorize:
         return _each
     if value is np.poly1d:
         return polynomial
-    if value is np.polynomial.Polynomial:
-        return Powers
-    if isinstance(value, np.polynomial.Polynomial):
-        return Powers.like(value)
     if value is Drawing:
         return drawing
     if isinstance(value, Drawing) and current.get().draws:
