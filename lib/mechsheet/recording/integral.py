@@ -27,10 +27,11 @@ _WEIGHTS = (
     0.10938715880229764, 0.09312545458369761, 0.07503967481091996, 0.054755896574351995, 0.032558162307964725,
     0.011694638867371874,
 )  # fmt: skip
+_OF_GAUSS = 0.29552422471475287, 0.26926671930999635, 0.21908636251598204, 0.1494513491505806, 0.06667134430868814
 _AT = np.array([*(-x for x in _PLACES[:0:-1]), *_PLACES]) / 2 + 0.5  # in parts of a part
 _PART = np.array([*_WEIGHTS[:0:-1], *_WEIGHTS]) / 2
 _OFF = _PART.copy()  # what is between the two rules
-_OFF[1::2] -= np.polynomial.legendre.leggauss(10)[1] / 2
+_OFF[1::2] -= np.array([*_OF_GAUSS[::-1], *_OF_GAUSS]) / 2
 _HALVED = 5  # times at most are parts between two corners
 _CLOSE = 1e-10  # of the integral of the magnitude: Kronrod's rule is off by far less than the two differ
 _CORNERS = 24
