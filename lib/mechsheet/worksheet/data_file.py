@@ -4,7 +4,6 @@ The first row has the names of the columns, each with its unit behind it: ``phi 
 ``;``, tabs or commas, whichever the first row has; lines that begin with # and empty ones are passed over.
 """
 
-import csv
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -94,6 +93,8 @@ def _with_unit(cell: Any, unit: str) -> Any:
 
 
 def _text(path: Path) -> list[tuple[int, list[Any]]]:
+    import csv  # on use: most worksheets read no file
+
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
