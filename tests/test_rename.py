@@ -221,3 +221,23 @@ def test_a_scene_without_inputs_follows_where_all_that_it_names_is_known(tmp_pat
     made = renamed(path, "m", "m_1", scenes)
     assert made[tmp_path / "limits.toml"].startswith('want = ["m_1"]\n[limits]\n"abs(m_1)" = {max = 3}\n"m_1 over s')
     assert other not in made, "of another worksheet"
+
+
+FORMATS = [  # the letters of formats beside the symbol d, here D
+    'f"{D:d} {D:5d} {e!r:>5} {D!r}"',
+    'f"{day:%d.%m.%Y} {day:%Y%m%d} {D}"',
+    'f"{e%D} {e % D} {e:{D}d} {[e, D][0:D]}"',
+    '"%d of D" % D',
+    '"{:d} D {0:d}"',
+    'day.strftime("%d")',
+]
+
+
+@pytest.mark.parametrize("said", FORMATS)
+def test_how_a_value_is_written_keeps_its_letters(said: str, tmp_path: Path) -> None:
+    """A day was %d_c.%m.%Y from then on, and {k:d_c} is no format."""
+    lines = "import datetime\nd = 7 * g.k  # [-] d, not %d\ne = 3\nday = datetime.date(2025, 3, d)\nsaid = SAID"
+    path = Path(own(tmp_path, lines.replace("SAID", said.replace("D", "d"))).path)
+    new = renamed(path, "d", "d_c", {})[path]
+    assert f"said = {said.replace('D', 'd_c')}\n" in new
+    assert "d_c = 7 * g.k  # [-] d_c, not %d\n" in new

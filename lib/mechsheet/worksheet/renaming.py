@@ -194,6 +194,7 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
     if is_unit and text.strip("\"'") != old and units.known(text.strip("\"'")):
         return text
     in_units = [found.span() for found in re.finditer(rf"{_IN_BRACKETS}|{_BEHIND_A_NUMBER}", text) if is_unit]
+    in_units += _formats(text)
 
     def follow(part: str, start: int) -> str:
         def word(found: re.Match[str]) -> str:
@@ -206,6 +207,15 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
     if old not in _WORDS:
         return follow(text, 0)
     return re.sub(r"\$[^$]*\$|`[^`]*`|\{[^}]*\}", lambda found: follow(found[0], found.start()), text)
+
+
+def _formats(text: str) -> Iterator[tuple[int, int]]:
+    """Where a text says how a value is written: ``{k:d}``, ``{day:%d.%m}``, ``{x!r}``, ``%d``, but not ``{k%d}``."""
+    yield from (found.span() for found in re.finditer(r"[:!}][^\s{}()\[\]]*(?=\})", text))
+    is_formatted = "f" in text.lower().partition("'" if text[-1] == "'" else '"')[0]
+    for found in re.finditer(r"%[-+#]?[^\W\d_]", text):
+        if not (is_formatted and re.search(r"\{[^{}:]*$", text[: found.start()])):
+            yield found.span()
 
 
 _IN_BRACKETS = r"(?<![\w\])])\[[^\]\n\"']*\]"  # and no index
