@@ -406,3 +406,20 @@ def test_what_is_among_others_follows(lines: str, tmp_path: Path) -> None:
     """It was an array made of a quantity, or must be str, not Written."""
     assert_never_stale(lines, tmp_path)
     assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+SORTED_OUT = [
+    (
+        "d = {'tie': [], 'strut': []}\nfor v in [g.F, g.a, 2.0]:\n    d['tie' if v > 1 else 'strut'].append(v)\n"
+        "y = sum(d['tie']) + len(d['strut'])"
+    ),
+    "d = {'1': [g.F], '2': []}\nfor v in [g.a, 2.0]:\n    d[f'{math.ceil(v)}'].extend([v, 1.0])\ny = sum(d['2'])",
+    "L = [[], [], [], []]\nfor v in [g.F, g.a, 2.0]:\n    L[math.floor(v) % 4].append(v)\ny = len(L[2]) + sum(L[0])",
+]
+
+
+@pytest.mark.parametrize("lines", SORTED_OUT)
+def test_what_is_sorted_into_lists_follows(lines: str, tmp_path: Path) -> None:
+    """What stood in one of several lists was appended to a copy, so that all would differ from the worksheet."""
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps

@@ -14,6 +14,7 @@ from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.quantities.selected import Selected
+from mechsheet.quantities.written import Written
 from mechsheet.recording import exactly
 from mechsheet.recording.choices import element
 
@@ -155,6 +156,16 @@ def part_of(array: Any, key: Callable[[], Any]) -> Any:
         return _NOT_SET
 
 
+def held(container: Any, key: Any) -> Any:
+    """``container[key]``, which is changed in place: of several lists Python looks which one it is."""
+    if isinstance(container, dict) and isinstance(key, Written):
+        return container[str(key)]
+    if isinstance(container, dict | list) and isinstance(key, Quantity) and key.single:
+        number = key.seen().item()
+        return container[int(number) if isinstance(container, list) else number]
+    return element(container, key)
+
+
 def _placed(old_and_new: Any, key: Any) -> Any:
     """An array with some elements set to others."""
     old, new = old_and_new
@@ -227,6 +238,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
-    "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside,
+    "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

@@ -106,6 +106,9 @@ class _Rewriting(ast.NodeTransformer):
                 rest += [keyword.value for keyword in keywords if keyword.arg == "default" and name in ("min", "max")]
                 if name in OF_KEPT and keeps(some) and len(rest) == len(node.args) - 1 + len(keywords):
                     return self.generic_visit(of_kept(node, OF_KEPT[name], some, *rest))
+            case ast.Call(ast.Attribute(ast.Subscript(held, key) as part, "append" | "extend" | "add") as method):
+                if not isinstance(key, ast.Slice | ast.Tuple | ast.Constant):
+                    method.value = call("held", part, held, key)
             case ast.Call(ast.Attribute(_, "join"), [ast.GeneratorExp() as some], []):  # which reads all of it at once
                 node.args = [ast.copy_location(ast.ListComp(some.elt, some.generators), some)]
         self.generic_visit(node)
