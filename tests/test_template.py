@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from as_script import as_file, as_script, copied
+from conftest import alive
 from marimo._cli.cli import main as marimo
 from openpyxl import load_workbook
 from playwright.sync_api import expect
@@ -81,6 +82,34 @@ def test_shows_its_page(lever, serve, page, console_errors):
     ):
         expect(part).to_have_count(count)
     assert console_errors == []
+
+
+def test_a_page_whose_server_was_started_anew_says_so(lever, serve, page):
+    """Its numbers stayed those of other inputs than it showed, with the word Unauthorized."""
+    page.goto(serve("run", lever))
+    page.get_by_text("2 of 2 checks pass").wait_for()
+    alive(page)
+    page.route("**/api/kernel/**", lambda route: route.fulfill(status=401))
+    field = page.locator(".ms-inputs tr:has-text('force on the lever') input")
+    field.fill("2400")
+    field.press("Enter")
+    told = page.locator(".ms-anew")
+    expect(told).to_contain_text("the server was started anew: this page computes nothing until it is loaded again")
+    page.unroute_all()
+    told.get_by_role("button", name="load again").click()
+    page.get_by_text("2 of 2 checks pass").wait_for()
+    expect(told).to_have_count(0)
+
+
+def test_elements_that_are_made_anew_take_their_attributes(lever, serve, page):
+    """marimo sets what is a property of the element instead: a page of a server started anew had no inputs."""
+    page.goto(serve("run", lever))
+    page.get_by_text("2 of 2 checks pass").wait_for()
+    expect(page.locator("ms-grid table")).to_have_count(1)
+    found = page.evaluate("""() => [...document.querySelectorAll("*")].flatMap((each) =>
+        [...each.attributes].map(({ name }) => name).filter((name) => each.localName.startsWith("ms-") && name in each
+        && !(name in HTMLElement.prototype)).map((name) => `${each.localName} ${name}`))""")
+    assert found == []
 
 
 def test_the_style_comes_without_a_style_sheet_and_the_curve_is_smooth(lever, serve, page, console_errors):

@@ -39,8 +39,8 @@
     }
 
     show(text) {
-      this.columns = JSON.parse(this.getAttribute("columns"));
-      const heads = this.columns.map((column) => `<th class="ms-${column.kind}">${column.head}</th>`).join("");
+      this.heads = JSON.parse(this.getAttribute("columns"));
+      const heads = this.heads.map((column) => `<th class="ms-${column.kind}">${column.head}</th>`).join("");
       this.innerHTML = `<table title="${KEYS}"><thead><tr><th></th>${heads}</tr></thead><tbody></tbody></table>`;
       this.body = this.querySelector("tbody");
       this.body.append(...this.fitting(rowsOf(text)).map((cells) => this.row(cells)));
@@ -49,14 +49,14 @@
 
     // Of a list each number is a row, however it is written.
     fitting(rows) {
-      return this.columns.length > 1 ? rows : rows.flat().map((cell) => [cell]);
+      return this.heads.length > 1 ? rows : rows.flat().map((cell) => [cell]);
     }
 
     row(cells = []) {
       const row = document.createElement("tr");
       row.innerHTML =
         "<th></th>" +
-        this.columns.map(({ kind }) => `<td><input class="ms-${kind}" spellcheck="false"></td>`).join("") +
+        this.heads.map(({ kind }) => `<td><input class="ms-${kind}" spellcheck="false"></td>`).join("") +
         '<td><button tabindex="-1" aria-label="away with the row">×</button></td>';
       inputsOf(row).forEach((input, i) => (input.value = cells[i] ?? ""));
       return row;
@@ -66,13 +66,13 @@
     number() {
       if (!this.body.lastElementChild || isFilled(this.body.lastElementChild)) this.body.append(this.row());
       let count = 0;
-      const sizes = this.columns.map(() => 0);
+      const sizes = this.heads.map(() => 0);
       for (const row of this.body.rows) {
         const number = isFilled(row) ? ++count : "";
         row.firstElementChild.textContent = number;
         inputsOf(row).forEach((input, i) => {
-          input.dataset.input = number && `${this.columns[i].name} (${number})`;
-          input.ariaLabel = `${this.columns[i].label}, row ${number || "to be filled in"}`;
+          input.dataset.input = number && `${this.heads[i].name} (${number})`;
+          input.ariaLabel = `${this.heads[i].label}, row ${number || "to be filled in"}`;
           sizes[i] = Math.max(sizes[i], input.value.length);
         });
       }
@@ -105,7 +105,7 @@
     // Rows and columns from a cell on; what is more than the columns hold stays in the last, and is refused there.
     fill(input, text) {
       const from = input.closest("td").cellIndex - 1;
-      const last = this.columns.length - from - 1;
+      const last = this.heads.length - from - 1;
       let row = input.closest("tr");
       this.fitting(text.trim() ? rowsOf(text) : [[""]]).forEach((cells, k) => {
         while (cells.length > last + 1 && !cells.at(-1)) cells.pop();

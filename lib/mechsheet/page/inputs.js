@@ -152,14 +152,14 @@
     constructor() {
       super();
       this.addEventListener("click", ({ target }) => this.act(target.closest("button")?.name));
-      this.addEventListener("change", ({ target }) => this.to({ ...ownTexts(), ...this.scenes[target.value].texts }));
+      this.addEventListener("change", ({ target }) => this.to({ ...ownTexts(), ...this.offered[target.value].texts }));
     }
 
     connectedCallback() {
       if (fields.length) this.follow();
     }
 
-    get scenes() {
+    get offered() {
       return JSON.parse(this.getAttribute("scenes"));
     }
 
@@ -253,7 +253,7 @@
     // The scenes beside the worksheet; shown is the one that the inputs are as they stand.
     list() {
       const now = textsNow();
-      const options = this.scenes.map(({ name, texts, why }, n) => {
+      const options = this.offered.map(({ name, texts, why }, n) => {
         const is = texts && !this.refused && same({ ...ownTexts(), ...texts }, now) ? " selected" : why ? " disabled" : "";
         return `<option value="${n}"${is}>${plain(name)}${why ? `: ${plain(why)}` : ""}</option>`;
       });

@@ -110,6 +110,21 @@
   const callAll = () => document.querySelectorAll("marimo-ui-element > [data-label]").forEach(call);
   document.addEventListener("focusin", ({ target }) => call(target.closest?.("[data-label]"))); // drawn since
 
+  // A server that was started anew takes nothing from a page of before: its numbers would be of other inputs than it shows.
+  const refused = ({ responseStatus, name }) => responseStatus === 401 && name.startsWith(`${location.origin}/`);
+  new PerformanceObserver((seen) => {
+    if (!seen.getEntries().some(refused) || document.querySelector(".ms-anew")) return;
+    const anew = document.createElement("div");
+    Object.assign(anew, { className: "ms-written ms-anew", role: "alert" });
+    anew.textContent = "the server was started anew: this page computes nothing until it is loaded again ";
+    Object.assign(anew.style, { top: "1em", bottom: "auto" }); // below, marimo tells that it was refused
+    const again = document.createElement("button");
+    again.textContent = "load again";
+    again.addEventListener("click", () => location.reload());
+    anew.append(again);
+    document.body.append(anew);
+  }).observe({ type: "resource" });
+
   // Cells out of sight are laid out once, so that the browser knows their heights and the outline leads to its places.
   const page = document.documentElement;
 
