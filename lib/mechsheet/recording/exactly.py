@@ -29,6 +29,11 @@ _LARGEST = 2.0**53  # whole number up to which all of them are floats
 _DECIMAL: dict[str, Callable[[Fraction, Fraction], Any]] = {
     name: getattr(operator, name) for name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow")
 }
+OPERATIONS = {
+    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "truediv", ast.FloorDiv: "floordiv", ast.Mod: "mod",
+    ast.Pow: "pow", ast.MatMult: "matmul", ast.LShift: "lshift", ast.RShift: "rshift", ast.BitAnd: "and_",
+    ast.BitOr: "or_", ast.BitXor: "xor",
+}  # fmt: skip
 _METHODS = frozenset(
     ("sum", "mean", "prod", "dot", "std", "var", "cumsum", "cumprod", "trace", "ptp", "round")
 )  # of arrays, that compute
@@ -242,19 +247,23 @@ def _unknown(*_: Any, **__: Any) -> Any:
     raise NotRecorded("a function of another package")
 
 
-def operation(node: ast.BinOp, name: str) -> ast.AST:
-    """An operation in the code of a worksheet as a call, which may find that it is of numbers alone."""
-    return call(f"plain {name}", node, node.left, node.right) if f"plain {name}" in CALLS else node
+class Following(ast.NodeTransformer):
+    """Makes calls of operations in the code of a worksheet, and of what else computes."""
 
+    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+        self.generic_visit(node)
+        name = f"plain {OPERATIONS[type(node.op)]}"
+        return call(name, node, node.left, node.right) if name in CALLS else node
 
-def called(node: ast.AST) -> ast.AST:
-    """A call of what computes: Python's own functions, and the methods of arrays."""
-    match node:
-        case ast.Call(ast.Name("abs" | "divmod" as name)):
-            node.func = ast.copy_location(ast.Name(f"recorded {name}", ast.Load()), node.func)
-        case ast.Call(ast.Attribute(array, name) as method) if name in _METHODS:
-            method.value = call("array", array, array)
-    return node
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        """Python's own functions, and the methods of arrays."""
+        self.generic_visit(node)
+        match node:
+            case ast.Call(ast.Name("abs" | "divmod" as name)):
+                node.func = ast.copy_location(ast.Name(f"recorded {name}", ast.Load()), node.func)
+            case ast.Call(ast.Attribute(array, name) as method) if name in _METHODS:
+                method.value = call("array", array, array)
+        return node
 
 
 CALLS: dict[str, Any] = {f"plain {name}": partial(operated, name) for name in (*_DECIMAL, "matmul")}

@@ -223,7 +223,9 @@ class _Rewriting(ast.NodeTransformer):
                 old = call("element", node, ast.Name(name, ast.Load()), key)
                 return _put(node, name, key, ast.BinOp(old, node.op, node.value))
             case ast.Name(name):
-                bind, end = _bound_anew(node, name, "changed", ast.Constant(_OPERATIONS[type(node.op)]), node.value)
+                bind, end = _bound_anew(
+                    node, name, "changed", ast.Constant(exactly.OPERATIONS[type(node.op)]), node.value
+                )
                 settled = ast.Assign([ast.Name("recorded nothing", ast.Store())], end.value)  # no sign of a change
                 return [bind, ast.copy_location(settled, node)]
         return node
@@ -350,17 +352,6 @@ class _Rewriting(ast.NodeTransformer):
     visit_TryStar = visit_With = visit_Try
 
 
-class _Exactly(_Rewriting):
-    """The same for a proof."""
-
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        new = super().visit_BinOp(node)
-        return exactly.operation(new, _OPERATIONS[type(new.op)]) if isinstance(new, ast.BinOp) else new
-
-    def visit_Call(self, node: ast.Call) -> ast.AST:
-        return exactly.called(super().visit_Call(node))
-
-
 def _lines(lines: Any) -> list[ast.stmt]:
     return [*lines] if isinstance(lines, list | tuple) else [lines]
 
@@ -401,13 +392,6 @@ def _call_of(name: str) -> ast.Call:
     return ast.Call(ast.Name(name, ast.Load()), [], [])
 
 
-_OPERATIONS = {
-    ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "truediv", ast.FloorDiv: "floordiv", ast.Mod: "mod",
-    ast.Pow: "pow", ast.MatMult: "matmul", ast.LShift: "lshift", ast.RShift: "rshift", ast.BitAnd: "and_",
-    ast.BitOr: "or_", ast.BitXor: "xor",
-}  # fmt: skip
-
-
 def _put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
     return _bound_anew(node, name, "put", index(key), value)
 
@@ -426,8 +410,8 @@ def compiled(statement: ast.stmt, path: str, exact: bool = False) -> CodeType:
     """
     if not (exact or any(map(_may_be_rewritten, source.nodes(statement)))):
         return compile(ast.Module([statement], []), path, "exec")
-    tree = ast.Module([pickle.loads(pickle.dumps(statement))], [])
-    return compile(ast.fix_missing_locations((_Exactly if exact else _Rewriting)().visit(tree)), path, "exec")
+    tree: Any = _Rewriting().visit(ast.Module([pickle.loads(pickle.dumps(statement))], []))
+    return compile(ast.fix_missing_locations(exactly.Following().visit(tree) if exact else tree), path, "exec")
 
 
 def rebuilt(f: FunctionType, names: dict[str, Any], exact: bool = False) -> FunctionType:
