@@ -459,6 +459,12 @@ ALONE = {  # what computes numbers of numbers alone, in the setup or in the cell
         "f(0.1 + 0.2) * g.F",
         lambda F: 2 * F,
     ),
+    "an element of whole numbers": ("", "g.F * (np.arange(5)[3] * 7 // 0.1)", lambda F: 210 * F),
+    "a series": (
+        "",
+        "g.F * (np.sinh(0.029) / 0.029 - 1.00014017)",
+        lambda F: F * (mp.sinh(mpf("0.029")) / mpf("0.029") - mpf("1.00014017")),
+    ),
     "rounding": ("", "g.F * round(2.675, 2)", lambda F: F * mpf("2.68")),
     "divmod": ("", "g.F * divmod(0.3, 0.1)[0]", lambda F: 3 * F),
 }

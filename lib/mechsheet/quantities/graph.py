@@ -96,8 +96,7 @@ class Graph(Lengths):
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
-        self.supposed = 0  # ways that Python does not take and that are recorded beside it, one in another
-        self.ways = list[Any]()  # conditions of those that are recorded now, one in another
+        self.supposed, self.ways = 0, list[Any]()  # how many ways are recorded that Python does not take; conditions
         self.labels: dict[Node, Label] = {}
         self.chosen = list[tuple[Any, Any, str]]()  # quantities of which places were taken by size, the axis, and how
 
@@ -146,7 +145,7 @@ class Graph(Lengths):
 
     def see(self, seen: Node, rows: bool = False, turns: bool = False, why: str = "") -> None:
         """Note that Python looks at a condition, which holds now; ``why`` it goes another way where it does not."""
-        if seen not in self.fixed:
+        if seen not in self.fixed or (self.unmoved and seen.op != "constant"):
             kept = self.numbered if rows or turns else self.looked
             kept.setdefault(seen, Guard(seen, self.line, rows, not rows and seen in self.counts, turns, why))
 
@@ -205,8 +204,7 @@ class Graph(Lengths):
             if math.isclose(other, size) and np.allclose(node.value, array, 4 * np.finfo(float).eps, 0, equal_nan=True):
                 return node
         key = ("exported", tuple(rests_on), array.dtype.char, array.shape, array.tobytes())
-        new = self._kept(key, "exported", tuple(rests_on), lambda: array, False)
-        alike.append((size, new))
+        alike.append((size, new := self._kept(key, "exported", tuple(rests_on), lambda: array, False)))
         return new
 
     def constant(self, value: Any, *unit: str) -> Node:
@@ -396,7 +394,9 @@ class Graph(Lengths):
         """An operation; of constants without a unit the constant that it gives, in their shape."""
         plain = [a.args[0] if a.op == "like" else a for a in args if a.op in ("constant", "like")]
         if len(plain) == len(args) and all(a.op == "constant" and not a.args for a in plain):
-            return self.like(self.constant(ELEMENTWISE[op](*[a.value for a in plain])), *args)
+            value = ELEMENTWISE[op](*[a.value for a in plain])
+            if not (self.unmoved and np.asarray(value).dtype.kind == "f"):  # which may be rounded
+                return self.like(self.constant(value), *args)
         return self.node(op, *args)
 
 
