@@ -271,7 +271,8 @@ class _Digits:
         if shown.node is None:
             return nothing("it is not recorded")
         if near := next((n for n in bottom_up([shown.node], ()) if n in self.recording.integrals), None):
-            return nothing(f"the integral of line {near.line} is the sum of a rule, of whose error there is no bound")
+            bound = "of whose error there is no bound: that takes one of what is integrated between its places"
+            return nothing(f"the integral of line {near.line} is the sum of a rule, {bound}")
         balls = self.found[shown.node].reshape(-1)
         if balls.size != shown.own.size:
             return nothing("it is recorded with another number of rows")
