@@ -60,9 +60,10 @@ def multiply(x: Quantity, y: Quantity) -> Quantity:
     graph = x.graph
     if _none_times(x, y):
         zero, other = (x, y) if is_zero(x) else (y, x)
-        none = graph.fold("mul", zero.re, other.re if other.im is None else graph.add(other.re, other.im))
-        is_real = zero.im is None and other.im is None
-        return Quantity(graph, none, None if is_real else none)  # both parts are none where one is
+        if other.im is not None:  # both parts are none where one is
+            none = graph.fold("mul", zero.re, graph.add(other.re, other.im))
+            return Quantity(graph, none, none)
+        return Quantity(graph, graph.fold("mul", zero.re, other.re), zero.im and graph.constant(0.0))
     if x.im is None and y.im is None:
         return Quantity(graph, graph.mul(x.re, y.re))
     a, b, c, d = x.re, imaginary(x), y.re, imaginary(y)
