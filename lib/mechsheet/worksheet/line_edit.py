@@ -18,7 +18,8 @@ from mechsheet.worksheet import imports, mistakes
 from mechsheet.worksheet.cells import defines
 from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.source import bound, functions, is_app, read_outside, scopes_of
+from mechsheet.worksheet.lines import formulas
+from mechsheet.worksheet.source import bound, functions, is_app, of_texts, read_outside, scopes_of
 
 _WIDE = 120  # characters of a line of the file
 OF_INPUT = "g."  # before the name of an input, as formulas read it
@@ -250,6 +251,8 @@ def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
             pass
         case _:
             raise SheetError(_LIKE[is_input])
+    if not is_input:
+        formulas(of_texts(((new, ""),))[0])  # what is no formula would take the whole cell from the page
     own = {name for node in ast.parse(place.line).body for name in bound(node)}
     taken = place.names | own if below else place.names - own
     if twice := sorted(taken.intersection(bound(body[0]))):
