@@ -264,15 +264,16 @@ def test_a_root_of_powers_is_proved(text: str, tmp_path: Path) -> None:
 
 
 def test_where_some_positions_have_no_root_the_others_are_proved(tmp_path: Path) -> None:
-    """A root that was not found ended the proof in an error."""
+    """That there is none where none is found is not proved but named: it kept the whole column from its digits."""
     lines = """
 y_found = find(lambda y: y * y - 1.5 + x, 0.1, 5)
 z = 2 * y_found.value  # [-] root
 table_2 = table("2", "Two", z)"""
     proof = sheet_of(tmp_path, lines.strip())
     (column,) = (column for column in proof.columns if column.name == "z")
-    assert (column.digits > 14).tolist() == [True, True, False, False, False] and column.none == 3
-    assert "no root is proved there" in column.why and not proof.check(9).passed
+    assert column.digits[:2].min() > 14 and np.isnan(column.digits[2:]).all() and column.none == 3
+    assert "no root is proved there: 3 of 5 have no number" in column.why and column.least > 14
+    assert proof.check(9).passed and "3 of 10 do not exist" in proof.check(9).reason
 
 
 def test_a_root_of_the_largest_or_least_of_several_is_proved(tmp_path: Path) -> None:
@@ -680,3 +681,16 @@ def test_a_decimal_that_is_chosen_is_the_one_that_is_written(lines: str, tmp_pat
     sheet = own(tmp_path, lines)
     names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path, "g": sheet.inputs()}
     assert proof_of_wanted(names, sheet, ["y"]).least["results"].least > 15
+
+
+def test_a_column_without_a_unit_or_a_line_is_named_without_one(tmp_path: Path) -> None:
+    """A proof of such a document ended in unit [] is not known."""
+    lines = 'table_2 = Table("2", "Built", (Column("v", "", "", 1, np.array([g.F, 1.0])),))'
+    path = Path(own(tmp_path, lines).path)
+    path.write_text(path.read_text().replace("import ask, find", "import Column, Table, ask, find", 1))
+    sheet = load(path)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
+    proof = proof_of(names, sheet, record(names, sheet, whole=True, exact=True))
+    assert [str(column) for column in proof.columns if column.where == "table 2"] == [
+        "table 2, v: 0.0 digits; it is not recorded"
+    ]

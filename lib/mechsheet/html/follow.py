@@ -329,7 +329,7 @@ class Follower:
         own: Spec = {"decimals": column.decimals, "power": column.power}
         own |= {"unit": self.unit(column.unit), "of": column.of}
         own |= {"usual": usual_decimals(column.unit)} if column.usual else {}
-        own |= {"factor": units.parse(column.unit).factor if column.unit else 1.0, "rows": len(column.values)}
+        own |= {"factor": column.factor, "rows": len(column.values)}
         if isinstance(node, bool):
             return own | {"key": None, "fixed": node, "texts": column.texts(numbers.AXIS), "values": _listed(column)}
         return own | {"key": self.key(node)}

@@ -11,7 +11,6 @@ import marimo as mo
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet import units
 from mechsheet.page import editor, notebook
 from mechsheet.worksheet.cells import Cell, Worksheet, base, value
 from mechsheet.worksheet.depending import depending
@@ -110,7 +109,7 @@ def _runnable(cells: tuple[notebook.Cell, ...], computed: frozenset[str]) -> tup
 
 def _drawn(column: Column, names: Mapping[str, Any], every: int) -> Column:
     """A column at more positions; ValueError where it is another one at its own."""
-    values = np.asarray(value(column.want, names) / units.parse(column.unit).factor, dtype=float)
+    values = np.asarray(value(column.want, names) / column.factor, dtype=float)
     largest = np.nanmax(np.abs(column.values), initial=0.0)
     if not np.allclose(values[::every], column.values, rtol=0, atol=_NOISE * largest, equal_nan=True):
         raise ValueError(f"{column.want} has other values between more positions")

@@ -11,17 +11,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 from math import floor, log10
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from flint import arb
 
-from mechsheet import units
 from mechsheet.quantities.lines import Recording
-from mechsheet.quantities.node import LEAVES, Node, bottom_up, steps_of
+from mechsheet.quantities.node import Node, bottom_up, steps_of
 from mechsheet.quantities.operations import SHAPED, Values
-from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers import numbers as elsewhere
+from mechsheet.readers.asked_numbers import Shown, of_lines, of_tables
 from mechsheet.readers.ball_rules import NONE, UNDECIDED, constant, endless, leaves_open
 from mechsheet.readers.balls import Balls, meant, precision, unfollowed
 from mechsheet.readers.gradients import adjoints
@@ -45,10 +44,11 @@ _HELD = 2.0**-51  # of an input: by how much it is off that is held as a float, 
 class Proved:
     """Digits proved of each number of a column, relative to the largest one; 0 where nothing is, NaN where none can be.
 
+    Of numbers that the worksheet has not, such as a root that is not found, there are none either.
     ``where`` is the table, ``name`` the column or result, ``why`` what keeps digits from being proved, with its line.
     One that is an ``exception`` has no digits, for the reason given, or those beside what it is made of. ``size`` is
     the number beside which they are, in the unit of the table's column, of results in SI; ``none`` of the numbers
-    do not exist, which is proved as digits are.
+    do not exist, which is proved of those that have digits.
     """
 
     where: str
@@ -66,7 +66,8 @@ class Proved:
 
     @property
     def least(self) -> float:
-        return float(np.min(self.digits))
+        known = self.digits[~np.isnan(self.digits)]
+        return float(known.min()) if known.size else np.nan
 
     @property
     def count(self) -> int:
@@ -169,7 +170,7 @@ def prove(
     Results over several positions are proved in their tables, and by themselves those of the ``fields``. ``done`` is
     called with how many of how many steps are behind.
     """
-    every = chain(_of_tables(recording, tables, lines), _of_lines(recording, namespace, known, lines, fields))
+    every = chain(of_tables(recording, tables, lines), of_lines(recording, namespace, known, lines, fields))
     shown = [each for each in every if each.own.size]  # a table may have no rows
     digits = _Digits(recording)
     steps, count = itertools.count(1), 2 * len(shown) + len(recording.found)
@@ -190,49 +191,6 @@ def prove(
     return Proof(tuple(columns), tuple(roots))
 
 
-class _Shown(NamedTuple):
-    """Numbers that are shown, in a unit, the line where they are defined, and the quantity that they are."""
-
-    where: str
-    name: str
-    line: int
-    node: Node | None
-    factor: float
-    own: Values
-
-    @property
-    def size(self) -> float:
-        """Largest magnitude, in the unit."""
-        return float(np.max(np.abs(self.own), initial=0.0, where=np.isfinite(self.own)))
-
-
-def _of_tables(recording: Recording, tables: Iterable[Table], lines: Mapping[str, int]) -> Iterator[_Shown]:
-    for table in tables:
-        recorded = recording.tables.get(table.number, (None,) * len(table.columns))
-        for n, (column, quantity) in enumerate(zip(table.columns, recorded, strict=True)):
-            if column.values.dtype.kind in "biuf" and (table.number, n) not in recording.constants:  # which is given
-                line = lines.get(column.of) or lines.get(f"{column.of}_S", 0)
-                node, factor = None if quantity is None else quantity.re, units.parse(column.unit).factor
-                yield _Shown(f"table {table.number}", column.symbol, line, node, factor, column.values)
-
-
-def _of_lines(
-    recording: Recording,
-    namespace: Mapping[str, Any],
-    known: Mapping[str, Formula],
-    lines: Mapping[str, int],
-    fields: Collection[str],
-) -> Iterator[_Shown]:
-    for name, line in known.items():
-        quantity, own = recording.values.get(name), np.asarray(namespace.get(name))
-        if not line.has_value or not isinstance(quantity, Quantity) or own.dtype.kind not in "biufc":
-            continue
-        if name in fields or (quantity.single and own.size == 1):
-            for node, part in zip(quantity.whole().parts, (own.real, own.imag), strict=False):
-                if node.op not in LEAVES:
-                    yield _Shown("results", name, lines.get(name, 0), node, 1.0, part.reshape(-1))
-
-
 class _Digits:
     """Balls of what is shown, each as small as the precisions that are tried make it."""
 
@@ -242,7 +200,7 @@ class _Digits:
         self.first = self.last = Balls()
         self.finest = Balls()
 
-    def enclose(self, shown: Iterable[_Shown], step: Callable[[], object]) -> None:
+    def enclose(self, shown: Iterable[Shown], step: Callable[[], object]) -> None:
         """Find the balls; ``step`` is called as soon as each has one."""
         sizes = dict[Node, float]()
         for each in shown:
@@ -264,9 +222,9 @@ class _Digits:
             if not sizes:
                 break
 
-    def proved(self, shown: _Shown) -> Proved:
+    def proved(self, shown: Shown) -> Proved:
         def nothing(why: str) -> Proved:
-            return Proved(shown.where, shown.name, np.zeros(shown.own.shape), f"line {shown.line}: {why}")
+            return Proved(shown.where, shown.name, np.zeros(shown.own.shape), f"{shown.at}{why}")
 
         if shown.node is None:
             return nothing("it is not recorded")
@@ -278,17 +236,18 @@ class _Digits:
             return nothing("it is recorded with another number of rows")
         with precision(_BITS[0]):
             digits = _digits(balls, shown.own, shown.factor, shown.size)
-        none = int(np.count_nonzero(np.isnan(shown.own)))
-        if digits.min() >= PROVED:
-            return Proved(shown.where, shown.name, digits, size=shown.size, none=none)
+        none, open_ = (int(np.count_nonzero(np.isnan(each))) for each in (shown.own, digits))
+        if open_ < digits.size and np.nanmin(digits) >= PROVED:
+            why = f"{self.why(shown)}: {open_} of {digits.size} have no number" if open_ else ""
+            return Proved(shown.where, shown.name, digits, why, size=shown.size, none=none)
         if _is_count(shown.node):
-            why = f"line {shown.line}: a count of evaluations, which is none of the formulas' numbers"
+            why = f"{shown.at}a count of evaluations, which is none of the formulas' numbers"
             return Proved(shown.where, shown.name, np.full(shown.own.shape, np.nan), why, exception=True)
         lost = Proved(shown.where, shown.name, digits, self.why(shown), size=shown.size, none=none)
         return self.zero(shown, shown.node) or lost
 
     @np.errstate(all="ignore")
-    def zero(self, shown: _Shown, node: Node) -> Proved | None:
+    def zero(self, shown: Shown, node: Node) -> Proved | None:
         """Digits of numbers that are 0 but for rounding, beside what they are made of; None of others.
 
         They are 0 to hundreds of digits, or less than what the inputs move them by that are held as floats.
@@ -307,7 +266,7 @@ class _Digits:
                 return None
         digits = _digits(found, shown.own, shown.factor, made / shown.factor)
         part = numbers.significant(shown.size * shown.factor / made, 1)
-        why = f"line {shown.line}: 0 but for rounding, {part} of what it is made of, beside which its digits are"
+        why = f"{shown.at}0 but for rounding, {part} of what it is made of, beside which its digits are"
         return Proved(shown.where, shown.name, digits, why, exception=True, size=made / shown.factor)
 
     def lost(self, part: Node) -> str:
@@ -315,7 +274,7 @@ class _Digits:
         alone = self.recording.graph.unmoved
         return f"line {part.line}: {alone.lost[part]}" if alone and part in alone.lost else ""
 
-    def why(self, shown: _Shown) -> str:
+    def why(self, shown: Shown) -> str:
         """What keeps digits from being proved: the first operation that leaves something open, or their rounding."""
         known = self.last.known if shown.node in self.last.known else self.first.known
         for part in bottom_up([shown.node] if shown.node else (), ()):
@@ -337,7 +296,7 @@ class _Digits:
         least = (p for p in bottom_up([shown.node] if shown.node else (), ()) if p.op == "found" and p.args[0].least)
         if found := next(least, None):
             return f"line {found.line}: the search for the least sum of squares ends there"
-        return f"line {shown.line}: the rest is lost to rounding"
+        return f"{shown.at}the rest is lost to rounding"
 
 
 # What of an operation nobody knows where its ball says nothing.
@@ -422,10 +381,12 @@ def _digits(balls: Values, own: Values, factor: float, size: float) -> Values:
 
 
 def _digits_of(x: Any, own: float, unit: Any, size: float) -> float:
-    if x is NONE or np.isnan(own):
-        return _ALL if x is NONE and np.isnan(own) else 0.0
     if isinstance(x, float):
         x = arb(x) if x != UNDECIDED else arb.nan()
+    if np.isnan(own):
+        return _ALL if x is NONE else 0.0 if x.is_finite() else np.nan
+    if x is NONE:
+        return 0.0
     if np.isinf(own):
         return _ALL if endless(x) and (x > 0) == (own > 0) else 0.0
     off = abs(x / unit - own).upper()

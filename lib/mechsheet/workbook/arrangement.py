@@ -79,7 +79,7 @@ class Arrangement:
                 line = self.lines.get(column) if column else None
                 if column is None or line is None or column in self.places or column.size == 1:
                     continue
-                plain = units.parse(table.columns[n].unit).factor == 1 and column.op not in ("take", "join")
+                plain = table.columns[n].factor == 1 and column.op not in ("take", "join")
                 if plain and not endless(column):
                     self._settle(column, line.symbol, sheet, first, n)
                     self.own.add((table.number, n))

@@ -68,7 +68,7 @@ class SheetFormulas:
             return self._formulas(node)
         if label := self.recording.labels.get((table.number, n)):
             return self._labels(*label, self._cells.references(node, 1.0))
-        factor = units.parse(table.columns[n].unit).factor
+        factor = table.columns[n].factor
         if node.size == 1:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)

@@ -64,6 +64,11 @@ class Column:
         """What it is called: as the line declares it, of a part as its heading is."""
         return self.of if symbol.plain(self.of) == self.symbol else self.symbol
 
+    @property
+    def factor(self) -> float:
+        """Of the display unit, to SI; 1 without one."""
+        return units.parse(self.unit).factor if self.unit else 1.0
+
     def texts(self, to: numbers.Notation = numbers.CELL) -> list[str]:
         """The values as they are shown."""
         if self.unlike:
