@@ -240,6 +240,25 @@ def test_a_line_is_written_with_the_import_of_what_it_calls(editor):
     assert file.read_bytes() == before
 
 
+def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):
+    """It was neither, and nothing said so: the verdict stayed at 2 of 2 checks."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, area = file.read_bytes(), page.locator(".ms-box textarea")
+    page.locator("#line-sigma > span").last.click()
+    expect(area).to_have_value("sigma = M_n / g.W  # [MPa] stress")
+    page.keyboard.press("Control+Enter")
+    area.fill('light = check("force on the lever", g.F, 2e3, "N")')
+    page.locator(".ms-box").get_by_text("force on the lever").wait_for()
+    area.press("Enter")
+    editor.expect("3 of 3 checks pass")
+    cell = page.locator(".marimo-cell", has=page.locator("#line-sigma"))
+    cell.get_by_text("force on the lever").first.wait_for()
+    page.locator(".ms-written").get_by_text("light is writtenundo").wait_for()
+    page.keyboard.press("Control+z")
+    editor.expect("2 of 2 checks pass")
+    assert file.read_bytes() == before
+
+
 def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
     """A screen reader said a number alone, and a line was opened by the pointer alone."""
     field = editor.page.get_by_role("textbox", name="Mmax, N·m, greatest moment> 0")

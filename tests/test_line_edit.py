@@ -361,3 +361,52 @@ def test_what_is_typed_is_read_whatever_stands_before_it_and_warns_nowhere(
     with pytest.raises(Exception, match="not callable"):
         page.done("type", "g.F", was, "F: float = 2 (3)  # [N] force")
     assert not recwarn.list
+
+
+CHECK = 'light = check("force", g.F, 2e3, "N")'
+
+
+@pytest.mark.parametrize(
+    ("name", "new", "below", "after"),
+    [
+        (
+            "sigma",
+            CHECK,
+            True,
+            {"typeset(strong)": "typeset(strong, light)", "(within, strong)": "(within, strong, light)"},
+        ),
+        (
+            "sigma",
+            f"lights = [{CHECK.removeprefix('light = ')}]",
+            True,
+            {"typeset(strong)": "typeset(strong, *lights)", "(within, strong)": "(within, strong, lights)"},
+        ),
+        ("strong", CHECK, False, {"typeset(strong)": "typeset(light)", "(within, strong)": "(within, light)"}),
+        ("strong", "", False, {"typeset(strong)": "typeset()", "(within, strong)": "(within)"}),
+        ("strong", "k = 2  # [-] two", False, {"typeset(strong)": "typeset()", "(within, strong)": "(within)"}),
+        ("M_S", "P_found = find(M, 0, 1, equals=1)", True, {"typeset()": "typeset(P_found)"}),
+        ("M_S", 't = table("3", "T", phi, M_S)', True, {"typeset()": "typeset(t)"}),
+        ("M_S", "d = Drawing().link(0, g.L) + Drawing()", True, {"typeset()": "typeset(d)"}),
+        ("M_S", "k = 2  # [-] two", True, {}),
+    ],
+)
+def test_what_a_line_gives_to_be_shown_is_shown_and_counted(
+    name: str, new: str, below: bool, after: dict[str, str]
+) -> None:
+    """A check written as a line was seen nowhere, and the verdict stayed at 2 of 2 checks."""
+    for text in (TEMPLATE, TEMPLATE.replace("\n", "\r\n")):
+        told = change(text, name, line(text, name), new, below)
+        made = told.of(text)
+        assert told.back().of(made) == text
+        before = TEMPLATE
+        for old, now in after.items():
+            before = before.replace(old, now)
+        shown = [row for row in made.splitlines() if "typeset(" in row or "summary(" in row]
+        assert shown == [row for row in before.splitlines() if "typeset(" in row or "summary(" in row]
+        wanted = [
+            n
+            for n in ("light", "lights", "strong", "within")
+            if f"{n}" in after.get("(within, strong)", "(within, strong)").strip("()").split(", ")
+        ]
+        assert [a.arg for a in cell(made, "verdict").args.args] == wanted
+        assert made.count("\r\n") == (made.count("\n") if text != TEMPLATE else 0)

@@ -100,7 +100,7 @@ class InPlace:
             raise SheetError(_UNSAVED)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
         made = told.of(text)
-        if do == "write" and not sure and (need := _needing(text, name, was, was if below else new)):
+        if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
             return {"asks": need}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
@@ -119,7 +119,7 @@ class InPlace:
         """HTML of a line: as it is typeset with its value, its mistakes, and what the setup imports with it."""
         cells = notebook.running()[0]()
         if not new:
-            return escape(_needing(text, name, was, "") or f"{name.removeprefix(OF_INPUT)} goes")
+            return escape(_needing(told.of(text), name, was, "") or f"{name.removeprefix(OF_INPUT)} goes")
         names, lines = dict(self.namespace), imported(text, new)
         exec("\n".join(lines), names)
         if name.startswith(OF_INPUT):

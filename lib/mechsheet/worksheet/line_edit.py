@@ -10,14 +10,15 @@ import re
 import textwrap
 import tokenize
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
-from mechsheet.worksheet import imports, mistakes
+from mechsheet.worksheet import imports, line_shown, mistakes
 from mechsheet.worksheet.cells import defines
 from mechsheet.worksheet.depending import Part, circle
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.line_shown import Given
 from mechsheet.worksheet.lines import formulas
 from mechsheet.worksheet.source import bound, functions, is_app, of_texts, read_outside, scopes_of
 
@@ -63,8 +64,9 @@ def line(text: str, name: str) -> str:
 def change(text: str, name: str, was: str, new: str, below: bool = False) -> Change:
     """The change of the file in which ``new`` stands in place of the line ``was`` of a name, or ``below`` it.
 
-    Without a text the line goes. The setup imports what ``new`` calls and nothing gives. Raises SheetError where the
-    line is another one by now, ``new`` is no such line, or needs what needs its cell.
+    Without a text the line goes. The setup imports what ``new`` calls and nothing gives; what it gives to be shown,
+    such as a check, the cell's typeset shows and the summary counts. Raises SheetError where the line is another one by
+    now, ``new`` is no such line, or needs what needs its cell.
     """
     place = _place(text, name)
     if place.line != was:
@@ -80,16 +82,34 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
     end = "\r\n" if own[place.first].endswith("\r\n") else "\n"
     rows = [place.indent + row + end if row else end for row in new.split("\n")] if new else []
     own[place.last if below else place.first : place.last] = rows
-    made = "".join(own)
+    made, counted, (_, setup) = "".join(own), list[tuple[str, str]](), _imports(text, new)
     if place.cell_number is not None and _named(new) != _named("" if below else was):
+        gone, gives = {} if below else line_shown.given(was), line_shown.given(new)
+        made = line_shown.in_summary(line_shown.in_typeset(made, gone, gives, end), gone, gives, end)
         whole = text.replace(place.cell, made)
         made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
-    _, setup = _imports(text, new)
-    found = Change((place.cell, *setup[:1]), (made, *setup[1:]))
+        if gone or gives:
+            counted = list(_counted(text, whole, place.cell_number, gone, gives))
+    found = Change(
+        (place.cell, *setup[:1], *(cell for cell, _ in counted)), (made, *setup[1:], *(new for _, new in counted))
+    )
     now = _circle(_parsed(found.of(text)), place.cell_number)
     if now and not _circle(_parsed(text), place.cell_number):
         raise SheetError(now)
     return found
+
+
+def _counted(
+    text: str, whole: str, number: int, gone: Mapping[str, Given], gives: Mapping[str, Given]
+) -> Iterator[tuple[str, str]]:
+    """The other cell with a summary, before and after a change of what it counts; ``whole`` lacks that change."""
+    tree, rows = _parsed(text), list(io.StringIO(text, newline=""))
+    for n, node in enumerate(functions(tree)):
+        first, last = _rows(node)
+        cell = "".join(rows[first:last])
+        end = "\r\n" if rows[first].endswith("\r\n") else "\n"
+        if n != number and "summary" in cell and (made := line_shown.in_summary(cell, gone, gives, end)) != cell:
+            yield cell, _signed(made, tree, _parsed(whole.replace(cell, made)), n, end)
 
 
 def imported(text: str, new: str) -> list[str]:
