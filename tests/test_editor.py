@@ -10,15 +10,17 @@ from types import SimpleNamespace
 
 import marimo
 import pytest
-from conftest import alive, drawn, marimo_server, new_page, placed, until
+from conftest import ROOT, alive, drawn, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
 from test_page import choose, choose_by_keys
 
 from mechsheet import __main__ as launcher
-from mechsheet.document.left_out import left_out
+from mechsheet.document.left_out import left_out, unseen
 from mechsheet.page import editor as told_by
 from mechsheet.page import in_place, notebook
 from mechsheet.worksheet import source
+from mechsheet.worksheet.check import Check
+from mechsheet.worksheet.line_shown import given
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.source import of_texts
 
@@ -573,6 +575,28 @@ def test_what_would_be_left_out_without_a_word_is_told():
         "c3: line 1, A = 2 * g.D: A stands in formulas and is not shown: end its line in # [unit] meaning",
         "c4: line 1, C = 2 * B: C is not shown: end the cell in typeset()",
     ]
+
+
+def test_a_check_that_no_cell_shows_is_told():
+    """It counted nowhere on the page, and no note said so."""
+    own = "from mechsheet import check, table, find, Drawing\n"
+    own += "c = check('own', g.D, 1.0)\nd = [check('two', g.D, 1.0)]\nt = table('1', 'T', g.D)\n"
+    own += "x_found = find(lambda x: x**2 - g.D, 0, 1)\ns = check('shown', g.D, 1.0)\nw = Drawing()\nn = []\nk = (1, 2)"
+    found = bar(own, "s")
+    assert found.texts(told_by.unsaid(found.cells, found.names)) == [
+        "c3: line 2, c = check('own', g.D, 1.0): c is not shown: give it to typeset() and to summary()",
+        "c3: line 3, d = [check('two', g.D, 1.0)]: d is not shown: give it to typeset() and to summary()",
+        "c3: line 5, x_found = find(lambda x: x**2 - g.D, 0, 1): x_found is not shown: give it to typeset()",
+    ]
+
+
+@pytest.mark.parametrize("path", sorted(ROOT.glob("worksheets/**/*.py")), ids=lambda path: path.stem)
+def test_of_no_worksheet_is_a_check_told_that_none_shows(path):
+    cells, made = source._in_file(str(path), 0), set[str]()
+    for statement in (statement for cell in cells for statement in cell.body):
+        with suppress(SyntaxError):
+            made |= {name for name, each in given(ast.unparse(statement)).items() if each.is_check or "_found" in name}
+    assert not [*unseen(cells, dict.fromkeys(made, Check("any", 1.0, 2.0)))]
 
 
 def test_a_unit_without_brackets_is_told_and_no_other_comment():

@@ -11,11 +11,13 @@ import numpy as np
 
 from mechsheet.units import Constant
 from mechsheet.worksheet import inputs, source
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.typeset import typeset_lines
 from mechsheet.worksheet.unbracketed import unbracketed
+from mechsheet.worksheet.verdict import Verdict
 
 
 class LeftOut(NamedTuple):
@@ -71,6 +73,28 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                         match each:
                             case ast.AnnAssign(ast.Name(field)) if field in told:
                                 yield LeftOut(n, each.lineno, told[field])
+
+
+def unseen(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
+    """Checks and solve blocks that cells bind to names which none of them reads or shows.
+
+    A table or figure may be there for the workbook alone.
+    """
+    cells = list(cells)
+    nodes = [node for cell in cells for statement in cell.body for node in source.nodes(statement)]
+    read = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+    for n, cell in enumerate(cells):
+        for node in cell.body:
+            for name in sorted({*bound(node)} - read) if isinstance(node, ast.Assign) else ():
+                value = names.get(name)
+                several = isinstance(value, tuple | list) and not hasattr(value, "_fields")
+                kinds = set(map(type, value)) if several else {type(value)}
+                if kinds and all(issubclass(kind, _SEEN) for kind in kinds):
+                    counted = " and to summary()" if kinds == {Check} else ""
+                    yield LeftOut(n, node.lineno, f"{name} is not shown: give it to typeset(){counted}")
+
+
+_SEEN = (Check, Verdict)
 
 
 def _unbracketed(cell: source.Cell, node: ast.stmt, names: Mapping[str, Any]) -> str:

@@ -12,7 +12,7 @@ from types import FrameType
 from typing import Any
 
 from mechsheet import units
-from mechsheet.document.left_out import left_out
+from mechsheet.document.left_out import left_out, unseen
 from mechsheet.document.numberless import numberless
 from mechsheet.page import notebook
 from mechsheet.recording import dimensions
@@ -148,9 +148,14 @@ def failed(cells: Iterable[notebook.Cell], gone: Iterable[str] = ()) -> Iterator
 
 
 def unsaid(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[Note]:
-    """What would be left out without a word: numbers that formulas read and nothing declares, formulas not typeset."""
+    """What would be left out without a word: numbers that formulas read and nothing declares, formulas not typeset.
+
+    And while all cells have run, checks and solve blocks that none of them shows.
+    """
+    cells = list(cells)
     ran = [cell for cell in cells if cell.status == "success"]
-    for n, line, why in left_out(source.of_texts(tuple((cell.code, cell.filename) for cell in ran)), names):
+    texts = source.of_texts(tuple((cell.code, cell.filename) for cell in ran))
+    for n, line, why in (*left_out(texts, names), *(unseen(texts, names) if len(ran) == len(cells) else ())):
         yield Note(ran[n].cell_id, why if line is None else f"{_line(ran[n], line)}: {why}")
 
 
