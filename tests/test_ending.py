@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import shlex
@@ -23,6 +24,7 @@ from mechsheet import __main__ as launcher
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.run import batch, compare, html, index, rename, script
 from mechsheet.studies import asked_design
+from mechsheet.worksheet.caret import caret
 from mechsheet.worksheet.errors import SheetError
 
 TEMPLATE = (Path(launcher.__file__).parent / "run" / "new_worksheet.txt").read_text(encoding="utf-8")
@@ -248,6 +250,23 @@ def test_a_power_of_whole_numbers_by_a_caret_is_refused_in_inputs_and_setup(
     """2 * 10^3 was 23, without a word."""
     done = as_script(lever(old, new))
     assert done.returncode == 1 and ", 2 * 10 ^ 3: a power is written **, not ^\n" in done.stderr
+
+
+@pytest.mark.parametrize("new", ["g.N ^ g.K", "k ^ g.K", "int(g.N) ^ len([1])", "g.N + g.K ^ k"])
+def test_a_power_of_whole_inputs_by_a_caret_is_refused(new: str, lever: Callable[..., Path]) -> None:
+    """Of 2 and 3 it was 1, without a word."""
+    path = lever("    F: float = 1200.0", "    N: int = 2  # [-] n\n    K: int = 3  # [-] k\n    F: float = 1200.0")
+    text = path.read_text(encoding="utf-8").replace(
+        "    n = 2 if", f"    k = 3\n    m = {new}  # [-] power\n    n = 2 if"
+    )
+    path.write_text(text, encoding="utf-8")
+    done = as_script(path)
+    assert done.returncode == 1 and f", {new}: a power is written **, not ^; " in done.stderr
+
+
+@pytest.mark.parametrize("new", ["(g.F > 2) ^ g.both", "(not g.both) ^ g.both", "isnan(g.F) ^ g.both", "{1} ^ s"])
+def test_one_of_two_conditions_is_no_power(new: str) -> None:
+    assert caret(ast.parse(f"m = {new}").body[0]) == (0, "")
 
 
 def test_a_mark_of_byte_order_is_told(lever: Callable[..., Path]) -> None:
