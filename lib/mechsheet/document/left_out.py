@@ -87,8 +87,7 @@ def unseen(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[L
         for node in cell.body:
             for name in sorted({*bound(node)} - read) if isinstance(node, ast.Assign) else ():
                 value = names.get(name)
-                several = isinstance(value, tuple | list) and not hasattr(value, "_fields")
-                kinds = set(map(type, value)) if several else {type(value)}
+                kinds = {type(each) for each in (value if isinstance(value, tuple | list) else [value])}
                 if kinds and all(issubclass(kind, _SEEN) for kind in kinds):
                     counted = " and to summary()" if kinds == {Check} else ""
                     yield LeftOut(n, node.lineno, f"{name} is not shown: give it to typeset(){counted}")
