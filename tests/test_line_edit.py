@@ -147,6 +147,20 @@ def test_a_setup_keeps_what_else_it_holds(setup: str, after: str) -> None:
     assert change(text[text.index("@") :], "n", "n = 2", "n = cos(2)").of(text[text.index("@") :]).count("cos") == 1
 
 
+def test_without_a_setup_the_cell_that_imports_gets_what_a_line_calls() -> None:
+    """The import was told, and not written."""
+    cells = "@app.cell\ndef _():\n    import marimo as mo\n    from numpy import pi\n    return mo, pi\n\n\n"
+    text = f"{cells}@app.cell\ndef _(pi):\n    a = pi\n    b = 1\n    return a, b\n"
+    told = change(text, "b", "b = 1", "b = cos(a) * mm")
+    made = text.replace("import pi\n", "import cos, pi\n    from mechsheet.units import mm\n")
+    assert told.of(text) == made.replace("b = 1", "b = cos(a) * mm").replace("def _(pi)", "def _(cos, mm, pi)")
+    assert told.back().of(told.of(text)) == text
+    own = "@app.cell\ndef _():\n    from numpy import pi\n    b = pi\n    return b, pi\n"
+    told = change(own, "b", "b = pi", "b = cos(pi)")
+    assert told.of(own) == own.replace("import pi", "import cos, pi").replace("b = pi", "b = cos(pi)")
+    assert told.back().of(told.of(own)) == own
+
+
 def test_ends_of_lines_and_a_line_of_several_rows_stay() -> None:
     text = TEMPLATE.replace("\n", "\r\n")
     made = edited("M", "def M(phi):\n    return 2 * g.F * g.L * sin(phi)  # [N*m] moment", text=text)

@@ -76,8 +76,8 @@ class Setup(NamedTuple):
     after: str
 
 
-def added(text: str, setup: ast.With, lines: Iterable[str]) -> Setup | None:
-    """The setup of a file with more lines that import, each joined to that from the same module.
+def added(text: str, setup: ast.With | ast.FunctionDef, lines: Iterable[str]) -> Setup | None:
+    """The setup of a file, or a cell, with more lines that import, each joined to that from the same module.
 
     None where its statements share their rows: there is no place for a further one.
     """

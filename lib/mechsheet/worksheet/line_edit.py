@@ -86,13 +86,14 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
     if place.cell_number is not None and _named(new) != _named("" if below else was):
         gone, gives = {} if below else line_shown.given(was), line_shown.given(new)
         made = line_shown.in_summary(line_shown.in_typeset(made, gone, gives, end), gone, gives, end)
-        whole = text.replace(place.cell, made)
+        if setup and setup.before in made:  # of the cell that imports
+            made, setup = made.replace(*setup), None
+        whole = (text.replace(*setup) if setup else text).replace(place.cell, made)
         made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
         if gone or gives:
             counted = list(_counted(text, whole, place.cell_number, gone, gives))
-    found = Change(
-        (place.cell, *setup[:1], *(cell for cell, _ in counted)), (made, *setup[1:], *(new for _, new in counted))
-    )
+    before, after = zip((place.cell, made), *([setup] if setup else []), *counted, strict=True)
+    found = Change(before, after)
     now = _circle(_parsed(found.of(text)), place.cell_number)
     if now and not _circle(_parsed(text), place.cell_number):
         raise SheetError(now)
@@ -118,16 +119,26 @@ def imported(text: str, new: str) -> list[str]:
 
 
 @lru_cache(maxsize=16)
-def _imports(text: str, new: str) -> tuple[list[str], tuple[str, ...]]:
-    """Lines that the setup gets with a line, and its rows before and after; nothing where it needs none, or is none."""
+def _imports(text: str, new: str) -> tuple[list[str], imports.Setup | None]:
+    """Lines that the setup gets with a line, and its rows before and after; nothing where it needs none, or is none.
+
+    Without a setup it is the first cell that imports.
+    """
     tree = _parsed(text)
     lines = imports.lacking(new, {name for body in _bodies(tree) for node in body for name in bound(node)})
-    for node in tree.body if lines else ():
+    importing = [node for node in functions(tree) if any(isinstance(s, ast.Import | ast.ImportFrom) for s in node.body)]
+    holders: list[ast.With | ast.FunctionDef] = [*_setup(tree), *importing]
+    for node in holders if lines else ():
+        if setup := imports.added(text, node, lines):
+            return (lines, setup) if text.count(setup.before) == 1 else ([], None)
+    return [], None
+
+
+def _setup(tree: ast.Module) -> Iterator[ast.With]:
+    for node in tree.body:
         match node:
             case ast.With(items=[ast.withitem(context)]) if is_app(context, ("setup",)):
-                if setup := imports.added(text, node, lines):
-                    return lines, setup
-    return [], ()
+                yield node
 
 
 def asked_for(text: str) -> str:
