@@ -11,7 +11,9 @@ from test_recalculation import computed, edit
 
 from mechsheet import evaluate, load
 from mechsheet.html import write
+from mechsheet.run.batch import compute
 from mechsheet.worksheet.check import checks_of
+from mechsheet.worksheet.scene import Limit, Scene
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -136,3 +138,12 @@ def test_a_check_is_wanted_by_its_name_however_that_is_put_together(name: str, t
     """Of a sum of texts it was said that no check has it, which the report tells beside its verdict."""
     sheet = own(tmp_path, f"from mechsheet import check\nstrong = check({name}, g.F, 5.0)")
     assert evaluate(sheet.path, ["line 3"], k=3)["line 3"].passed
+
+
+def test_a_check_that_is_called_like_a_function_is_wanted_and_limited(tmp_path: Path) -> None:
+    """A function of the setup has no value, so the name is that of the check: it was "declared by no line"."""
+    sheet = own(tmp_path, "from mechsheet import check\ncheck('sqrt', sqrt(g.F), 5.0)")
+    given = Scene({"F": 9.0}, want=("sqrt",), limits={"sqrt": Limit(max=3.5)})
+    (judged,) = compute(sheet, "scene", given)[0].checks
+    assert (judged.residual, judged.limit) == (3, 3.5)
+    assert [evaluate(sheet.path, ["sqrt"], F=F)["sqrt"].residual for F in (4.0, 9.0, 16.0)] == [2, 3, 4]

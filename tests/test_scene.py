@@ -44,6 +44,28 @@ def test_a_later_scene_adds_to_an_earlier_one(tmp_path):
     assert found == Scene({"P6": 2}, None, ("GS6",), {"GS6": Limit(min=1), "dRa": Limit(max=1)})
 
 
+@pytest.mark.parametrize(
+    "limit, unit, found",
+    [
+        ('{min = "20 N", max = "0,3 kN"}', "N", Limit(20, 300)),
+        ('{max = "90 °"}', "deg", Limit(max=90)),
+        ('{min = "20 m"}', "N", r"limit 20 m of GS6: m does not measure N"),
+        ('{min = "1 kN", max = 3}', "N", r"limit of GS6: min is above max"),
+        ('{max = "3 K"}', "degC", r"limit 3 K of GS6: write it in °C, for a temperature is not a difference"),
+    ],
+)
+def test_a_limit_is_read_with_its_unit(tmp_path, limit, unit, found):
+    """As an input is: of "20 N" it was said that it is no number."""
+    (read,) = arguments.read(
+        [f"--scene={written(tmp_path, f'[limits]{chr(10)}GS6 = {limit}')}"], FIELDS
+    ).limits.values()
+    if isinstance(found, Limit):
+        assert read.of("GS6", unit) == found
+    else:
+        with pytest.raises(SheetError, match=found):
+            read.of("GS6", unit)
+
+
 @pytest.mark.parametrize("argument", ["P6=3", "--P6", "--=3", "-P6=3", "--scene", "--tolerances=", ""])
 def test_other_forms_are_refused(argument):
     with pytest.raises(SheetError, match="must be --NAME=VALUE") as error:

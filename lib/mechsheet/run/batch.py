@@ -25,7 +25,7 @@ from mechsheet.run.units_once import units_of
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
-from mechsheet.worksheet.cells import Worksheet, base, load
+from mechsheet.worksheet.cells import Worksheet, base, is_result, load
 from mechsheet.worksheet.check import Check, checks_of, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError, cut
 from mechsheet.worksheet.kinds import Input
@@ -93,7 +93,8 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     quantities, tables = dict[str, Displayed](), list[Table]()
     found = (row.symbol for row in report.solved(names))
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
-        what = names.get(want, next((check for check in judged if check.name == want), None))
+        named = next((check for check in judged if check.name == want), None)
+        what = names[want] if is_result(want, names) else named
         if isinstance(what, Table):
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):

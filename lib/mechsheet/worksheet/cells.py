@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import chain
 from pathlib import Path
-from types import CodeType
+from types import CodeType, ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from mechsheet.worksheet import data_file, mistakes, source
-from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating
+from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating, unkept
 from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
@@ -148,10 +148,12 @@ class Worksheet:
             order.append(cell)
 
         for name in want:
-            if (root := base(name)) in known or root in givers:
+            root, checking = base(name), list[Cell]()
+            if not is_result(root, {**self.common, **givers}):
+                checking = [cell for cell in self.cells if any(re.fullmatch(check, name) for check in cell.checks)]
+            if not checking and (root in known or root in givers):
                 ask(root)
                 continue
-            checking = [cell for cell in self.cells if any(re.fullmatch(check, name) for check in cell.checks)]
             if not checking and root.isidentifier():
                 ask(root)
             elif not checking:
@@ -201,16 +203,24 @@ def asked(want: Iterable[str]) -> tuple[str, ...]:
 def value(want: str, names: Mapping[str, Any]) -> Any:
     """A wanted result in the namespace of a run: a name, a part of one, or the check of that name."""
     root, part = split(want)
-    if not root.isidentifier() or (isinstance(names, dict) and root not in names):
-        found = {check.name: check for check in checks_of(names)}
-        if want not in found:
+    if not (root.isidentifier() and is_result(root, names)):
+        found = {check.name: check for check in (*unkept(names, ()), *checks_of(names))}
+        if want in found:
+            return found[want]
+        if not root.isidentifier() or (isinstance(names, dict) and root not in names):
             raise _no_check(want, found)
-        return found[want]
     if not part:
         return names[root]
     if np.asarray(names[root]).dtype.kind not in "iufc":
         raise SheetError(f"{want}: {root} is no number")
     return np.abs(names[root]) if part == "abs" else getattr(np.asarray(names[root]), part)
+
+
+def is_result(name: str, names: Mapping[str, Any]) -> bool:
+    """Whether a name may be that of a result: a function or a module has none, and leaves it to a check."""
+    if not isinstance(names, dict):
+        return True  # what knows more names than it tells
+    return name in names and not (callable(names[name]) or isinstance(names[name], ModuleType))
 
 
 def base(want: str) -> str:

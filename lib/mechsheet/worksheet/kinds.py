@@ -75,17 +75,13 @@ class Input:
         Raises SheetError naming the input and what cannot be used of it.
         """
         try:
-            x, other = _split(value)
+            x, other = number_and_unit(value)
             if other:
-                given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
                 try:
-                    ratio = units.conversion(other, self.unit)
+                    x = converted(x, other, self.unit)
                 except ValueError as error:
+                    given = f"{self.meaning} {self.name} = {errors.as_given(value)}"
                     raise SheetError(f"{given}: {error}", self.name) from None
-                if units.plain(other) != self.unit and "degC" in (units.plain(other), self.unit):
-                    why = f"write it in {numbers.in_text(self.unit)}, for a temperature is not a difference"
-                    raise SheetError(f"{given}: {why}", self.name)
-                x = float(numbers.significant(x * ratio, 15))
         except SheetError:
             raise
         except ValueError:
@@ -381,13 +377,21 @@ def number(text: object) -> float:
     >>> number("0,415"), number("1.75e7"), number("27,500")
     (0.415, 17500000.0, 27.5)
     """
-    x, unit = _split(text)
+    x, unit = number_and_unit(text)
     if unit:
         raise ValueError(f"{errors.as_given(text)} is no number")
     return x
 
 
-def _split(value: object) -> tuple[float, str]:
+def converted(x: float, unit: str, own: str) -> float:
+    """A number in one unit in another; ValueError where that cannot be, as of another dimension."""
+    ratio = units.conversion(unit, own)
+    if units.plain(unit) != own and "degC" in (units.plain(unit), own):
+        raise ValueError(f"write it in {numbers.in_text(own)}, for a temperature is not a difference")
+    return float(numbers.significant(x * ratio, 15))
+
+
+def number_and_unit(value: object) -> tuple[float, str]:
     """A number and the unit behind it; ValueError where there is no number."""
     if isinstance(value, int) and not isinstance(value, bool):
         return _float(value), ""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.cells import base, value
+from mechsheet.worksheet.cells import base, is_result, value
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import registry
@@ -80,10 +80,11 @@ def limited(values: Iterable[Any], limits: Mapping[str, Limit], namespace: Mappi
     judged, more = list(values), list[Check]()
     held = {check.name: check for check in judged if isinstance(check, Check)}
     for name, limit in limits.items():
-        if base(name).isidentifier() and (name not in held or name in namespace):
+        if base(name).isidentifier() and (name not in held or is_result(name, namespace)):
             more += _checks(name, limit, namespace)
             continue
         check = held[name] if name in held else value(name, namespace)
+        limit = limit.of(f"the check {name!r}", check.unit)
         bound, none, word = (limit.min, limit.max, "min") if check.at_least else (limit.max, limit.min, "max")
         if bound is None or none is not None:
             raise SheetError(f"limit of the check {name!r} must be {{{word} = NUMBER}}")
@@ -95,7 +96,7 @@ def _checks(name: str, limit: Limit, namespace: Mapping[str, Any]) -> Iterator[C
     quantity, *more = quantities(name, namespace)
     if more:
         raise SheetError(f"limit of {name}: it is complex; limit {name}.real, {name}.imag or abs({name})")
-    unit, values = numbers.suffix(quantity.unit), quantity.values
+    limit, unit, values = limit.of(name, quantity.unit), numbers.suffix(quantity.unit), quantity.values
     reason = quantity.gaps or (f"it is {quantity.span}{unit}" if values.size > 1 else "")
     for bound, sign, worst in ((limit.min, ">=", np.min), (limit.max, "<=", np.max)):  # NaN stays NaN and fails
         if bound is not None:

@@ -9,7 +9,7 @@ A scene file is TOML of up to four parts::
     P6 = 40e3                        # numbers, or texts such as "0,415", in display units
 
     [limits]
-    GS6 = {min = 30e3}               # of a result: min, max or both, in its display unit
+    GS6 = {min = 30e3}               # of a result: min, max or both, in its display unit, or {min = "30 kN"}
     "loop of group (2, 3)" = {max = 1e-9}    # of a check: max stands for its own limit
 
 A wanted or limited name is that of a result, a part of one as in a table (``PS6_S.imag``, ``abs(R56)``), or of a check.
@@ -24,16 +24,31 @@ from typing import Any, NamedTuple
 
 from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.errors import SheetError, as_given, cut
-from mechsheet.worksheet.kinds import number
+from mechsheet.worksheet.kinds import converted, number, number_and_unit
 
 PROVED, MOST_PROVED = 9.0, 15  # digits that a proof is asked for by itself, and at most
 
 
 class Limit(NamedTuple):
-    """Between what a result must lie, in its display unit."""
+    """Between what a result must lie, in its display unit, or in those that stand behind the numbers."""
 
     min: float | None = None
     max: float | None = None
+    min_unit: str = ""
+    max_unit: str = ""
+
+    def of(self, name: str, unit: str) -> "Limit":
+        """The limit in the unit of the result of that name; SheetError where it cannot be given in that."""
+        ends = list[float | None]()
+        for x, other in ((self.min, self.min_unit), (self.max, self.max_unit)):
+            try:
+                ends.append(converted(x, other, unit) if x is not None and other else x)
+            except ValueError as error:
+                raise SheetError(f"limit {x:.10g} {other} of {name}: {error}") from None
+        least, most = ends
+        if least is not None and most is not None and least > most:
+            raise SheetError(f"limit of {name}: min is above max")
+        return Limit(least, most)
 
 
 @dataclass(frozen=True)
@@ -160,9 +175,11 @@ def _limit(path: Path, name: str, ends: object) -> Limit:
     if not isinstance(ends, dict) or not ends or set(ends) - {"min", "max"}:
         raise SheetError(f"{says} must be {{min = NUMBER}}, {{max = NUMBER}} or both")
     try:
-        limit = Limit(**{end: number(value) for end, value in ends.items()})
+        read = {end: number_and_unit(value) for end, value in ends.items()}
     except ValueError as error:
         raise SheetError(f"{says}: {error}") from None
-    if limit.min is not None and limit.max is not None and limit.min > limit.max:
+    (least, least_in), (most, most_in) = (read.get(end, (None, "")) for end in ("min", "max"))
+    limit = Limit(least, most, least_in, most_in)
+    if least_in == most_in and least is not None and most is not None and least > most:
         raise SheetError(f"{says}: min is above max")
     return limit
