@@ -169,7 +169,7 @@ def test_columns_of_rows_and_units_keep_their_names(tmp_path: Path) -> None:
         "m_1 = 2 * g.F  # [m] way of m_1, 5 m/s or 3 m",
         "case.x + m_1 for case in cases)  # [m] all",
         'check("m_1 over s in 5 m", s - m_1, 99, "m")',  # its last text is a unit
-        'f"at {m_1:.1f} m", x=m_1) if False else {"m_1": s[m_1] if False else m_1}',
+        'f"at {m_1:.1f} m", x=m_1) if False else {"m": s[m_1] if False else m_1}',
     ):
         assert kept in text
     assert "sum(case.x + m" in renamed(path, "s", "s_1", {})[path]
@@ -241,3 +241,29 @@ def test_how_a_value_is_written_keeps_its_letters(said: str, tmp_path: Path) -> 
     new = renamed(path, "d", "d_c", {})[path]
     assert f"said = {said.replace('D', 'd_c')}\n" in new
     assert "d_c = 7 * g.k  # [-] d_c, not %d\n" in new
+
+
+KEYS = """
+from typing import Literal
+from mechsheet import evaluate, grid
+kind: Literal["A", "B"] = "B"
+widths = dict(A=1.0, B=2.0)
+sizes = {"A": 3.0, "B": 4.0}
+B = g.F * sizes["B"] * widths[kind]  # [-] B times
+asked = lambda: evaluate("own.py", ["B"])
+bounds = {"B": 3}
+grids = lambda: (grid(**bounds), grid({"B": [1, 2]}))"""
+
+
+def test_a_key_and_an_option_keep_their_names_and_what_the_library_is_given_follows(tmp_path: Path) -> None:
+    """With "B" at one place and ``dict(B=..)`` or a scene at another the renamed worksheet ended in a KeyError."""
+    path, scene = Path(own(tmp_path, KEYS).path), tmp_path / "scene.toml"
+    made = renamed(path, "B", "B_1", {scene: '[inputs]\nF = 3\nkind = "B"\n'})
+    text = made[path]
+    assert 'Literal["A", "B"] = "B"' in text and 'sizes = {"A": 3.0, "B": 4.0}' in text and "A=1.0, B=2.0)" in text
+    assert 'B_1 = g.F * sizes["B"] * widths[kind]  # [-] B_1 times' in text
+    assert 'evaluate("own.py", ["B_1"])' in text and made.get(scene) is None
+    assert 'bounds = {"B_1": 3}' in text and 'grid({"B_1": [1, 2]})' in text
+    before = evaluate(path, ["B"], F=3.0)["B"]
+    path.write_text(text)
+    assert evaluate(path, ["B_1"], F=3.0)["B_1"] == before == 24

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from mechsheet import units
 from mechsheet.worksheet import cells, inputs, mistakes
 from mechsheet.worksheet.errors import SheetError, as_given, nearest
+from mechsheet.worksheet.own_texts import own_texts
 from mechsheet.worksheet.scene import is_of
 from mechsheet.worksheet.source import functions
 
@@ -53,7 +54,8 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
             raise SheetError(f"{mistakes.place(path, line)}: {new} stands there already")
     if new in dir(builtins):
         raise SheetError(f"{new} is a name of Python's own")
-    made = {path: _in_worksheet(text, old, new, sheet.inputs.__name__ if old in declared else "")}
+    texts = {field.name for field in inputs.declared(sheet.inputs) if not field.continuous and not field.whole}
+    made = {path: _in_worksheet(text, old, new, sheet.inputs.__name__ if old in declared else "", texts)}
     ast.parse(made[path])
     for scene, held in scenes.items():
         if is_of(held, declared, known) and (other := _in_scene(held, old, new)) != held:
@@ -61,9 +63,9 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
     return made
 
 
-def _in_worksheet(text: str, old: str, new: str, inputs_class: str) -> str:
-    """The text of a worksheet; ``inputs_class`` declares the symbol where it is an input."""
-    found = _Others(text, old, inputs_class)
+def _in_worksheet(text: str, old: str, new: str, inputs_class: str, texts: Set[str]) -> str:
+    """The text of a worksheet; ``inputs_class`` declares the symbol where it is an input, ``texts`` are no numbers."""
+    found = _Others(text, old, inputs_class, texts)
     before, places = ["", ""], list[tuple[int, int, str]]()
     for token in _tokens(text):
         if token.type == tokenize.NAME and token.string == old and not found.keeps(token.start):
@@ -83,7 +85,7 @@ def _in_worksheet(text: str, old: str, new: str, inputs_class: str) -> str:
 class _Others:
     """Where a name in a worksheet is that of something else than the symbol."""
 
-    def __init__(self, text: str, name: str, inputs_class: str) -> None:
+    def __init__(self, text: str, name: str, inputs_class: str, texts: Set[str]) -> None:
         self.text, self.name, self.starts, tree = text, name, _starts(text), ast.parse(text)
         self.arguments, self.spans = set[int](), list[tuple[int, int]]()
         own = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)}
@@ -100,17 +102,15 @@ class _Others:
                     self.spans.append(self._span(node))
         for node in ast.walk(tree):
             if isinstance(node, ast.Call):
-                match node.func:
-                    case ast.Name(function):
-                        called = imported.get(function)
-                    case ast.Attribute(ast.Name(module), function):
-                        called = getattr(imported.get(module), function, None)
-                    case _:
-                        function, called = "", None
+                function, called = _called(node.func, imported)
                 if function not in own:
                     self._add_units(node, called)
                     if not _takes_any(called, name):
                         self._add_arguments(node)
+
+        for node in own_texts(tree, name, lambda function: _called(function, imported)[1], texts):
+            start = self._at(node.lineno, node.col_offset)
+            self.spans.append((start, start + 1))
 
     def keeps(self, place: int) -> bool:
         """Whether what stands at a place keeps its name."""
@@ -159,6 +159,16 @@ def _imported(tree: ast.AST) -> dict[str, Any]:
                 first = ((each.asname or each.name.split(".")[0], each) for each in names)
                 found |= {name: sys.modules.get(each.name if each.asname else name) for name, each in first}
     return found
+
+
+def _called(function: ast.expr, imported: Mapping[str, Any]) -> tuple[str, Any]:
+    """The name of what is called, and what it is as far as it is imported."""
+    match function:
+        case ast.Name(name):
+            return name, imported.get(name)
+        case ast.Attribute(ast.Name(module), name):
+            return name, getattr(imported.get(module), name, None)
+    return "", None
 
 
 def _has_field(node: ast.ClassDef, name: str) -> bool:
@@ -223,8 +233,9 @@ _BEHIND_A_NUMBER = r"(?:(?<![\w.])\d[\d.,]*(?:e[+-]?\d+)?|\}) ?[^\W\d]+(?:[*/·^
 
 
 def _in_scene(text: str, old: str, new: str) -> str:
-    """What a scene names; in braces are columns of rows, behind numbers and first in a comment units."""
-    others = [r"\{[^{}]*\}", *([_BEHIND_A_NUMBER, r"#\s*[^\s,;]+"] if units.known(old) else [])]
+    """What a scene names; braces hold columns of rows, texts are values, behind numbers and in comments stand units."""
+    others = [r"\{[^{}]*\}", r"=\s*(?:\"[^\"\n]*\"|'[^'\n]*')"]
+    others += [_BEHIND_A_NUMBER, r"#\s*[^\s,;]+"] if units.known(old) else []
     symbol = rf"(?P<other>{'|'.join(others)})|{_FIRST}{re.escape(old)}{_LAST}"
     return re.sub(symbol, lambda found: found["other"] or new, text)
 
