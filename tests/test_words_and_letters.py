@@ -159,3 +159,10 @@ def test_a_tolerance_has_the_degrees_of_its_field() -> None:
         "mm": "±\xa00.5\xa0mm",
         "m/s**2": "±\xa00.5\xa0m/s2",
     }
+
+
+def test_a_function_of_one_letter_with_an_index_is_its_symbol() -> None:
+    """A Find said "f t(α)" of what stood as a symbol in its own line."""
+    for name in ("f_t", "s_k", "h_max", "F_t", "f"):
+        assert function(name) == read(name), name
+    assert function("half_of") == function("group_of").__class__("half of")

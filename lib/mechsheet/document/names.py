@@ -202,8 +202,8 @@ def function(name: str) -> Node:
     word = re.fullmatch(r"[a-z]{3,}(\d[a-z]+)?(_\w*)?|[A-Z][a-z]{3,}\w*[A-Z]\w*", name) and not re.match(
         f"{LETTER}|{DIFFERENCE}", name
     )
-    is_symbol = (
-        len(name) == 1 or re.fullmatch("d[a-z]", name) or (not word and (re.search(r"\d", name) or _SYMBOL.match(name)))
+    is_symbol = re.fullmatch(r"[^\W\d_](_\w+)?|d[a-z]", name) or (
+        not word and (re.search(r"\d", name) or _SYMBOL.match(name))
     )
     return symbol(name) if is_symbol else Function(name.replace("_", " "))
 
