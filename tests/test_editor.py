@@ -313,6 +313,19 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     editor.expect_last_moment("420")
 
 
+def test_a_mistake_at_the_top_names_its_section(editor):
+    """It was line 1, and every cell has one."""
+    told = (
+        "() => getComputedStyle(document.querySelector('.ms-told'), '::after').content.includes('2.2 Load cases, line')"
+    )
+    editor.edit("n = 2 if", "n = 2 ^ 1 if")
+    editor.page.wait_for_function(told)
+    editor.edit("n = 2 ^ 1 if", "n = 2 if")
+    editor.expect("2 of 2 checks pass")
+    editor.edit("M_S = M(phi)  # [N*m]", "M_S = M(phi)  # [m]")
+    editor.page.locator(".ms-title div", has_text="2 Moment, line 6, M_S: unit").first.wait_for()
+
+
 def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     page = editor.page
 

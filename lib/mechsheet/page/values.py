@@ -25,7 +25,7 @@ from mechsheet.page.needed import needed
 from mechsheet.page.script import element
 from mechsheet.page.smooth import smooth
 from mechsheet.page.unchanged import kept
-from mechsheet.page.waiting import waiting
+from mechsheet.page.waiting import section, waiting
 from mechsheet.worksheet import mistakes, numbers, symbol
 from mechsheet.worksheet.check import Check, Summary
 from mechsheet.worksheet.drawing import Drawing
@@ -100,6 +100,8 @@ def failed(told: str, of: str = "", reason: str = "", shown: Any = None, cell_id
     """
     callout = shown if shown is not None else mo.callout(mo.Html(message(reason or told)), kind="danger")
     said = numbers.on_page(reason or told)
+    if told and mo.app_meta().mode == "edit" and (place := section(*notebook.stopped(cell_id))):
+        told, said = f"{place}, {told}", f"{place}, {said}"  # whose lines are counted in each cell
     content = f'content:"{_quoted(said)}"'
     style = ".ms-told{display:block!important}" + (f".ms-told::after{{{content}}}" if told else "")
     if of:
@@ -192,8 +194,10 @@ def _(title: Title) -> str:
 def _noted(notes: tuple[Note, ...]) -> str:
     """Notes with links to their cells, and the style sheet that tells each under the output of its cell too."""
     items = "".join(
-        f'<div>{MISTAKE if note.mistake else NOTE} <a href="#cell-{note.cell}">{escape(note.text)}</a></div>'
+        f"<div>{MISTAKE if note.mistake else NOTE} {escape(place and f'{place}, ')}"
+        f'<a href="#cell-{note.cell}">{escape(note.text)}</a></div>'
         for note in notes
+        for place in [section(*notebook.stopped(note.cell)) if note.cell else ""]
     )
     texts = {note.cell: "\n".join(n.text for n in notes if n.cell == note.cell) for note in notes}
     places = "".join(

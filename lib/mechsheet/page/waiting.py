@@ -33,6 +33,17 @@ def waiting(file: Sequence[source.Cell], cells: Sequence[Cell], stopped: str) ->
     return {heading(place): waits for place in places if place not in ("", at)}
 
 
+def section(file: Sequence[source.Cell], cells: Sequence[Cell], cell_id: str) -> str:
+    """Heading above a cell in the worksheet's ``file``, found by what it defines; "" where that does not tell."""
+    own = frozenset[str]().union(*(cell.defs for cell in cells if cell.cell_id == cell_id))
+    last = ""
+    for cell in file:
+        last = [last, *headings(cell.body)][-1]
+        if not own.isdisjoint(name for statement in cell.body for name in source.bound(statement)):
+            return last
+    return ""
+
+
 def headings(lines: Iterable[ast.stmt]) -> list[str]:
     """Headings in the texts that lines of a cell show."""
     return [found for text in source.texts(lines) for found in _HEADING.findall(source.constant(text))]
