@@ -196,6 +196,8 @@ def test_a_name_that_its_cell_binds_again_can_be_edited() -> None:
         ("n", "n = 2,5 * g.L  # [m] n", "is several values: a decimal number has a point, not a comma"),
         ("n", "n = 2 * 10^3  # [-] n", r"2 \* 10 \^ 3: a power is written \*\*, not \^"),
         ("n", "n, k = 1, 2  # [m] n", "2 names need 2 units"),
+        ("n", "n = 2 * sigma  # [-] n", "sigma is defined below its use: move its line up"),
+        ("n", "n = 2 * n  # [-] n", "n is computed from itself"),
         ("n", "n = 2a  # [-] n", r"is a \* missing\? 2 \* a"),
         ("n", "n := 2", "a definition is written =, not :="),
         ("n", "lambda = 2", "the symbol λ is lamda"),

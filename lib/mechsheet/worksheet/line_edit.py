@@ -16,11 +16,11 @@ from typing import NamedTuple, TypeAlias
 
 from mechsheet.worksheet import imports, line_shown, mistakes
 from mechsheet.worksheet.cells import defines
-from mechsheet.worksheet.depending import Part, circle
+from mechsheet.worksheet.depending import Part, circle, read
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_shown import Given
 from mechsheet.worksheet.lines import formulas
-from mechsheet.worksheet.source import bound, functions, is_app, of_texts, read_outside, scopes_of
+from mechsheet.worksheet.source import bound, functions, is_app, nodes, of_texts, read_outside, scopes_of
 
 _WIDE = 120  # characters of a line of the file
 OF_INPUT = "g."  # before the name of an input, as formulas read it
@@ -82,6 +82,8 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
     end = "\r\n" if own[place.first].endswith("\r\n") else "\n"
     rows = [place.indent + row + end if row else end for row in new.split("\n")] if new else []
     own[place.last if below else place.first : place.last] = rows
+    if new and place.cell_number is not None:
+        _refuse_early("".join(own), place.last if below else place.first)
     made, counted, (_, setup) = "".join(own), list[tuple[str, str]](), _imports(text, new)
     if place.cell_number is not None and _named(new) != _named("" if below else was):
         gone, gives = {} if below else line_shown.given(was), line_shown.given(new)
@@ -288,6 +290,21 @@ def _refuse(new: str, place: _Place, is_input: bool, below: bool) -> None:
     taken = place.names | own if below else place.names - own
     if twice := sorted(taken.intersection(bound(body[0]))):
         raise SheetError(f"{twice[0]} is declared by another line: take another name")
+
+
+_LATER = (ast.Lambda, ast.comprehension)  # which read when they are called, or names of their own
+
+
+def _refuse_early(cell: str, row: int) -> None:
+    """Raise SheetError where the line in a row of a cell reads what the cell gives in this line, or below it, alone."""
+    (holder,) = functions(ast.parse(cell))
+    body = holder.body
+    at = next(n for n, node in enumerate(body) if _rows(node)[0] == row)
+    if isinstance(body[at], ast.Assign | ast.AnnAssign) and not any(isinstance(n, _LATER) for n in nodes(body[at])):
+        own = set(bound(body[at]))
+        late = own.union(*map(bound, body[at:])).difference(*map(bound, body[:at]))
+        for name in sorted(read(body[at]) & late):
+            raise SheetError(mistakes.late(name, name in own))
 
 
 def _is_of_names(target: ast.expr) -> bool:
