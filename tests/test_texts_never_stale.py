@@ -170,6 +170,14 @@ def test_a_page_takes_away_the_text_of_other_inputs(text: str, follows: bool, tm
     assert before[last:].startswith("<span data-n") == follows
 
 
+def test_a_text_that_is_looked_up_says_what_would_follow(tmp_path: Path) -> None:
+    """It follows for its own text alone, and nothing told that a choice among texts follows for all of them."""
+    path = Path(own(tmp_path, "y = g.F * {'A': 1.0, 'B': 2.0}[g.s]  # [-] result").path)
+    path.write_text(path.read_text().replace("    k: int", '    s: str = "A"  # kind\n    k: int', 1))
+    sheet = cells.load(path)
+    assert "of the type Literal[..] all options may follow" in write.page(sheet, sheet.inputs())
+
+
 TOGETHER = """y = np.sin(x) * g.a  # [-] result
 kind = ('low' if g.F < 3 else 'high').lower()
 checks_2 = (

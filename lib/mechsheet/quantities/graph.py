@@ -27,7 +27,7 @@ MOST = 1_000_000  # numbers that one statement may compute, many of them each a 
 _COPIED = 8  # numbers that are only put together, of which none has a cell, count as one that is computed
 _NODES = 50_000  # operations that it may have, of however few numbers: they take time in Python
 _SET = "an array whose elements are set one by one is a new one each time, a list that is appended to is not"
-_ANOTHER = "it reads a text that is another one for these inputs"
+_ANOTHER = "it reads a text that is another one for these inputs; of the type Literal[..] all options may follow"
 MOST_DRAWN = 2_000_000  # the same where no cell holds them: in a page in one file, or a function of the inputs
 
 

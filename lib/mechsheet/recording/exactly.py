@@ -54,6 +54,8 @@ class Unmoved:
     def __init__(self) -> None:
         self.written = dict[Node, Node]()  # inputs that stand for numbers, and these
         self.lost = dict[Node, str]()  # numbers of which nobody knows how Python has them, and by what
+        self.modules = dict[str, dict[str, Any]]()  # of the user's own, what each defines
+        self.imported: dict[int, tuple[str, str]] | None = None  # module and name of each number of these
 
     def unknown(self, graph: Graph, own: Any, by: str = "its line") -> Any:
         """Numbers of the worksheet's own run of which nobody knows how they were computed."""

@@ -36,6 +36,7 @@ from mechsheet.recording import exactly, scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
 from mechsheet.recording.math_rules import MATH, STATISTICS
+from mechsheet.recording.own_modules import followed, is_own
 from mechsheet.recording.per_row import of_rows
 from mechsheet.recording.rewritten import NAMES, rebuilt
 from mechsheet.worksheet import check, find, system, title
@@ -128,6 +129,8 @@ def instead(value: Any) -> Any:
         return scipy_rules.solved(value, _on_stage("rooted"), _integrated) or _of_scipy(value)
     if isinstance(value, _lru_cache_wrapper) and not room.startswith("mechsheet."):
         return instead(value.__wrapped__)
+    if is_own(value):
+        return followed(value, shared)
     if (
         current.get().unmoved is not None
         and isinstance(value, BuiltinFunctionType | FunctionType)
