@@ -163,3 +163,21 @@ def test_what_is_not_recorded_has_no_slope(tmp_path: Path) -> None:
     assert unfollowed([node], [recording.inputs["n"]]) is None
     assert np.isnan(gradient(node, 0, [F]).both).all()
     assert np.isnan(slopes([node], [F])[node].both).all() and unfollowed([F], [a]) is None
+
+
+JUMPING = [  # at F = 1: what jumps there is compared with something that it is not equal to
+    "np.where(np.floor(g.F) > 0.5, g.a, 2 * g.a)",
+    "np.where(g.F % 1.0 > 0.5, g.a, 2 * g.a)",
+    "np.where(np.sign(g.F - 1) > -0.5, g.a, 2 * g.a)",
+    "g.a if np.round(g.F + 0.5) > 1.5 else 2 * g.a",
+    "max(0.5, g.F % 1.0)",
+    "abs(np.floor(g.F) - 0.2)",
+]
+
+
+@pytest.mark.parametrize("line", JUMPING)
+def test_a_comparison_with_what_jumps_has_no_slope(line: str, tmp_path: Path) -> None:
+    """The condition holds or not just beside the point, and a slope of 0 was told there."""
+    _, recording = recorded(own(tmp_path, f"y = {line}  # [-] result"), F=1.0)
+    node, by = recording.values["y"].re, recording.inputs["F"]
+    assert np.isnan(slopes([node], [by])[node].both).all()

@@ -8,6 +8,7 @@ from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mechsheet.quantities.node import Node, is_number
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, Values
@@ -95,15 +96,21 @@ def _extreme(node: Node, y: Values, values: Sequence[Values], operands: Sequence
     choose = np.maximum if node.op == "max" else np.minimum
     ahead = np.where(a == b, choose(p.ahead, q.ahead), np.where(first, p.ahead, q.ahead))
     moves = np.where(a == b, p.moves | q.moves, np.where(first, p.moves, q.moves))
-    return Motion(np.where(np.isnan(y), np.nan, ahead), moves)
+    lost = _jumps(a, p) | _jumps(b, q)  # the other one may be the extreme ahead
+    return Motion(np.where(np.isnan(y) | lost, np.nan, ahead), moves | lost)
+
+
+def _jumps(value: Values, motion: Motion) -> NDArray[np.bool_]:
+    """Where there is a number, and nobody knows what it is ahead."""
+    return np.asarray(motion.moves & np.isnan(motion.ahead) & ~np.isnan(value))
 
 
 def _compared(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
-    """Of equal numbers that which their motions say."""
+    """Of equal numbers that which their motions say; of what jumps nobody knows."""
     (a, b), (p, q) = values, [number(m) for m in operands]
     tied = (a == b) & (p.moves | q.moves)
     ahead = np.where(tied, ELEMENTWISE[node.op](p.ahead, q.ahead), y)
-    unknown = tied & np.isnan(p.ahead - q.ahead)
+    unknown = (tied & np.isnan(p.ahead - q.ahead)) | _jumps(a, p) | _jumps(b, q)
     return Motion(np.where(unknown, y, ahead), (ahead != y) | unknown)
 
 
