@@ -303,3 +303,12 @@ def test_numbers_of_unlike_units_have_digits_of_their_own(found):
         for text, x in zip(column.texts(), column.values, strict=True):
             assert float(text) == pytest.approx(x, rel=1e-4)
             assert len(text.lstrip("-").replace(".", "").lstrip("0")) <= max(5, len(f"{abs(x):.0f}")), text
+
+
+@pytest.mark.parametrize("want", ["b", [3]])
+def test_what_is_wanted_is_a_list_of_names(want, tmp_path):
+    """Of one name alone each letter was taken for a result, and a number ended in a TypeError from inside."""
+    path = own(tmp_path, "\nb = g.a * g.F  # [-] result").path
+    for study in (sensitivity, lambda path, want: tolerance(path, want, {"a": 0.1})):
+        with pytest.raises(SheetError, match="must be a list of names, such as"):
+            study(path, want)

@@ -181,3 +181,10 @@ def test_a_comparison_with_what_jumps_has_no_slope(line: str, tmp_path: Path) ->
     _, recording = recorded(own(tmp_path, f"y = {line}  # [-] result"), F=1.0)
     node, by = recording.values["y"].re, recording.inputs["F"]
     assert np.isnan(slopes([node], [by])[node].both).all()
+
+
+def test_a_slope_that_is_infinite_on_either_side_is_none(tmp_path: Path) -> None:
+    """Of a root of an amount at 0 it is inf ahead and -inf behind, and inf was told."""
+    _, recording = recorded(own(tmp_path, "y = sqrt(abs(g.F))  # [-] result"), F=0.0)
+    node, by = recording.values["y"].re, recording.inputs["F"]
+    assert np.isnan(slopes([node], [by])[node].both).all()

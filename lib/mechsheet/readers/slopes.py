@@ -30,7 +30,8 @@ class Slope(NamedTuple):
         """The derivative; NaN where the sides differ, or one of them has none."""
         with np.errstate(invalid="ignore"):
             same = np.abs(self.ahead - self.behind) <= ROUNDING * np.abs(self.ahead)
-        return np.where(same, self.ahead, np.nan)
+        opposite = np.isinf(self.ahead) & (self.ahead != self.behind)  # as at the foot of a root of what is an amount
+        return np.where(same & ~opposite, self.ahead, np.nan)
 
 
 def slopes(wanted: Iterable[Node], by: Sequence[Node], known: Mapping[Node, Values] | None = None) -> dict[Node, Slope]:

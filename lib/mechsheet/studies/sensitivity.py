@@ -21,7 +21,7 @@ from mechsheet.run.silent import silently
 from mechsheet.studies.sweep import Sweep, sweep
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
-from mechsheet.worksheet.cells import base, load, value
+from mechsheet.worksheet.cells import asked, base, load, value
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
@@ -217,7 +217,7 @@ def sensitivity(
     ----------
     C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
-    names, given = tuple(dict.fromkeys(want)), by_name(worksheet, given)
+    names, given = asked(want), by_name(worksheet, given)
     fields, at = point(worksheet, given)
     chosen = [x for x, f in fields.items() if f.continuous] if inputs is None else list(dict.fromkeys(inputs))
     for x in chosen:

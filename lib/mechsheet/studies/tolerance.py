@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mechsheet.studies.sensitivity import by_name, continuous, point, real, solved
 from mechsheet.studies.sweep import sweep
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.cells import base
+from mechsheet.worksheet.cells import asked, base
 from mechsheet.worksheet.deviation import SIGMAS
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.table import Column, Table, usual_decimals
@@ -120,7 +120,7 @@ def tolerance(
         An unknown name, a negative tolerance or one of a whole number, more corners than 4096, Monte Carlo without a
         seed, inputs given that have no solution.
     """
-    names, given = tuple(dict.fromkeys(want)), by_name(worksheet, given)
+    names, given = asked(want), by_name(worksheet, given)
     fields, at = point(worksheet, given)
     normal = [distribution == "normal"] * len(tolerances or ())
     if tolerances is None:
