@@ -53,7 +53,7 @@ def test_a_table_has_no_rows_where_a_condition_holds_for_none(tmp_path):
     [
         ('table("1", "T", S, P23_S)', r"column P23_S: P23_S is a point or a force: take P23_S.real and P23_S.imag"),
         ('figure("1", "T", P23_S)', "column P23_S: P23_S is a point or a force"),
-        ('table("1", "T", grade)', "column grade: grade is no number"),
+        ('table("1", "T", grade)', "column grade: grade is neither a number nor a column of texts"),
         ('table("1", "T", S, three, dRa)', "columns must be as long as each other, not 2 of S, 3 of three"),
         ('figure("1", "T", S)', "figure 1 needs at least 2 columns"),
         ('table("1", "T")', "table 1 needs at least 1 column$"),

@@ -294,7 +294,7 @@ class Follower:
         return self.mark("table", columns=[c | others if c["decimals"] else c for c in each])
 
     def _label(self, table: Table, n: int) -> Spec:
-        """The input whose texts a column shows, and the key of their rows."""
+        """The input whose texts a column shows, or these, and the key of which ones it does."""
         name, rows = self.recording.labels.get((table.number, n), ("", None))
         return {"label": [name, self.key(rows.re)]} if rows is not None else {}
 
@@ -320,10 +320,10 @@ class Follower:
 
     def _columns(self, number: str, columns: tuple[Column, ...]) -> list[Node | bool]:
         """Node of each column, whether it is fixed where there is none."""
-        held = self.recording.tables.get(number)
-        if held is None:
+        if (held := self.recording.tables.get(number)) is None:
             return [False] * len(columns)
-        return [c.re if c is not None else bool(own.unit) for c, own in zip(held, columns, strict=True)]
+        fixed = [bool(own.unit) or (number, n) in self.recording.constants for n, own in enumerate(columns)]
+        return [c.re if c is not None else same for c, same in zip(held, fixed, strict=True)]
 
     def _column(self, column: Column, node: Node | bool) -> Spec:
         own: Spec = {"decimals": column.decimals, "power": column.power}

@@ -122,9 +122,9 @@ function columnTexts(column, results) {
   return values && (column.label ? labelsOf(column.label, values, results) : Array.from(values, x => cellText(x, column)));
 }
 
-// Texts of an input by their rows; none where the number beside one is none.
+// Texts of an input by their rows, or of several by their numbers; none where the number beside one is none.
 function labelsOf([name, key], values, results) {
-  const rows = results.values[key], texts = typedIn.get(name);
+  const rows = results.values[key], texts = Array.isArray(name) ? name : typedIn.get(name);
   return rows && Array.from(rows, (k, n) => (values[n] === values[n] ? texts[k] : AXIS.none));
 }
 

@@ -94,7 +94,8 @@ class Recording:
     """The quantities of a worksheet, cell by cell, and what it shows of them.
 
     ``tables`` are the columns by the number of a table, of a figure under ``Fig 1``, ``constants`` those of them that
-    hold the same numbers for all inputs, ``labels`` those of texts: the name of their input, and its rows;
+    hold the same numbers for all inputs, ``labels`` those of texts: the name of their input, or all that may
+    stand there, and which ones do;
     ``arguments`` others that are recorded, by names such as ``table 1 decimals``,
     ``worded`` what is a number while a ``table 1 title`` or note, or a ``check stress name``, that inputs change is
     that of the run or can be said, ``said`` those with recorded numbers or texts in them; ``marks`` the marks of a
@@ -118,7 +119,7 @@ class Recording:
     lines: dict[str, list[Line]] = field(default_factory=dict)
     others: dict[str, list[Line]] = field(default_factory=dict)
     constants: set[tuple[str, int]] = field(default_factory=set)
-    labels: dict[tuple[str, int], tuple[str, Quantity]] = field(default_factory=dict)
+    labels: dict[tuple[str, int], tuple[str | tuple[str, ...], Quantity]] = field(default_factory=dict)
     arguments: dict[str, Node] = field(default_factory=dict)
     worded: dict[str, Node] = field(default_factory=dict)
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities import polynomial_rules
+from mechsheet.quantities import polynomial_rules, text_column
 from mechsheet.quantities.arithmetic import absolute, angle, choice, conjugate, is_whole, rounded, trunc
 from mechsheet.quantities.array_rules import (
     blocks,
@@ -229,7 +229,7 @@ def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: 
 def _selected(graph: Graph, conditions: Any, choices: Any, default: Any = 0) -> Any:
     value = default
     for condition, one in reversed(list(zip(conditions, choices, strict=True))):
-        value = choice(graph, condition, one, value)
+        value = text_column.chosen(graph, condition, one, value)
     return value
 
 
@@ -243,9 +243,12 @@ def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
 def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:
     if not both:
         return np.nonzero(condition)
-    if not any(np.asarray(each).dtype.kind == "U" for each in both if not isinstance(each, Quantity | list | tuple)):
+    words = text_column.Texts, Quantity, list, tuple
+    if not any(
+        isinstance(v, words[:1]) or np.asarray(v).dtype.kind == "U" for v in both if not isinstance(v, words[1:])
+    ):
         graph.go_together(*(part for each in (condition, *both) for part in lift(graph, each).parts), hidden=True)
-    return choice(graph, condition, *both)
+    return text_column.chosen(graph, condition, *both)
 
 
 def _clipped(graph: Graph, x: Any, low: Any = None, high: Any = None, min: Any = None, max: Any = None) -> Any:

@@ -19,7 +19,7 @@ from mechsheet.quantities.refused import compared, pointed, refused
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
-from mechsheet.quantities.text_column import Texts
+from mechsheet.quantities.text_column import Texts, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
 from mechsheet.recording.memory import Memory, may_change, names_of
@@ -209,8 +209,8 @@ def element(container: Any, key: Any) -> Any:
         return _pointed(lift(current.get(), container), key)
     if not isinstance(key, Quantity) or isinstance(container, Quantity | Whole | Texts | Listed):
         return _pointed(container, key)
-    if isinstance(container, np.ndarray) and container.dtype.kind in "biufc":
-        return _pointed(lift(key.graph, container), key)
+    if isinstance(container, np.ndarray) and (held := held_in(key.graph, container, key.ndim > 0)) is not None:
+        return _pointed(held, key)
     values = container if isinstance(container, dict) else dict(enumerate(container))
     row = None
     if key.single and isinstance(container, list | tuple):  # whose last element is that of -1

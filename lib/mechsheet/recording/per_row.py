@@ -11,7 +11,7 @@ from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.refused import each_row
 from mechsheet.quantities.selected import Selected
-from mechsheet.quantities.text_column import Texts
+from mechsheet.quantities.text_column import Texts, among
 from mechsheet.quantities.written import OneOf, Written
 from mechsheet.readers.replaced import replaced
 from mechsheet.recording.choices import made_like, way_may_change
@@ -101,6 +101,8 @@ def _in_their_form(value: Any, rows: dict[Node, Node], known: list[tuple[Any, An
             return Together(made_like(value, [_in_their_form(part, rows, known) for part in value]))
         case Written((OneOf(at, texts, Quantity() as column, name),)):
             return Texts(name, column, texts, _column(at, rows))
+        case Written() if (found := among(current.get(), value)) is not None:
+            return Texts("", None, found[0], _column(found[1], rows))
     return _column(lift(current.get(), value), rows)
 
 
@@ -115,7 +117,9 @@ def held_by(parts: Any) -> list[Any]:
         return [each for part in parts.parts for each in held_by(part)]
     if isinstance(parts, Whole):
         return [each for part in vars(parts).values() for each in held_by(part)]
-    return [parts.at, parts.column] if isinstance(parts, Texts) else _columns_of(parts)
+    if isinstance(parts, Texts):
+        return [part for part in (parts.at, parts.column) if part is not None]
+    return _columns_of(parts)
 
 
 def are_rows(sources: Sequence[Any]) -> bool:

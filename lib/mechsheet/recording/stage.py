@@ -17,9 +17,11 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.text_column import Texts
+from mechsheet.quantities.text_column import shown as as_column
 from mechsheet.quantities.written import Written, seen
 from mechsheet.readers.terms import made_of
 from mechsheet.recording import showing, solving
+from mechsheet.recording.each_row import EachRow
 from mechsheet.recording.rows_checked import exists
 from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet import find, system
@@ -92,6 +94,11 @@ class Stage:
     def _show(self, number: str, columns: tuple[Any, ...], every: Any) -> None:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
         self.shown_now.append((self.recording.tables, number))
+        whole = (c.parts if isinstance(c, EachRow) and c.pairs and c.every else c for c in columns)
+        columns = tuple(
+            as_column(self.graph, of_all if isinstance(of_all, Texts) else column)
+            for of_all, column in zip(whole, columns, strict=True)
+        )
         follows = self.graph.draws and isinstance(every, Quantity) and max(map(np.ndim, columns), default=0) == 1
         labels = {n: column for n, column in enumerate(columns) if isinstance(column, Texts)}
         given = [*(c.same if isinstance(c, Texts) else c for c in columns), *(label.at for label in labels.values())]
@@ -100,7 +107,7 @@ class Stage:
             at = arange(self.graph, 0, rows[0].count(0), every)
             rows = [column[at] for column in rows]
         for (n, label), at in zip(labels.items(), rows[len(columns) :], strict=True):
-            self.recording.labels[number, n] = label.name, at
+            self.recording.labels[number, n] = label.name or label.texts, at
         self.recording.tables[number] = tuple(map(copy, rows[: len(columns)]))  # which later lines may set elements of
 
     def figure(

@@ -231,7 +231,7 @@ def _on_stage(name: str) -> Callable[..., Any]:
     def function(*args: Any, **kwargs: Any) -> Any:
         if current.get().supposed:
             raise NotRecorded("it is shown on a way that is not taken")
-        beside = _UNSAID.get(name, ())
+        beside = (*_UNSAID.get(name, ()), *(range(2, len(args)) if name == "table" else ()))  # columns of texts follow
         kwargs = {key: value if key in beside else looked_at(value) for key, value in kwargs.items()}
         return staged.get()[name](*(x if n in beside else looked_at(x) for n, x in enumerate(args)), **kwargs)
 

@@ -80,6 +80,7 @@ class Arrangement:
                 if column is None or line is None or column in self.places or column.size == 1:
                     continue
                 plain = table.columns[n].factor == 1 and column.op not in ("take", "join")
+                plain &= (table.number, n) not in recording.labels
                 if plain and not endless(column):
                     self._settle(column, line.symbol, sheet, first, n)
                     self.own.add((table.number, n))

@@ -73,8 +73,14 @@ class SheetFormulas:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
 
-    def _labels(self, name: str, rows: Quantity, same: Sequence[str]) -> list[str]:
-        """Formulas of texts of an input: what is typed in their rows, while there is a number ``same`` of each."""
+    def _labels(self, name: str | tuple[str, ...], rows: Quantity, same: Sequence[str]) -> list[str]:
+        """Formulas of texts of an input: what is typed in their rows, while there is a number ``same`` of each.
+
+        Of several texts the number says which one stands there.
+        """
+        if not isinstance(name, str):
+            texts = ",".join(map(quoted, name))
+            return [f"=IFERROR(CHOOSE({x[1:]}+1,{texts}),NA())" for x in same]
         place = self.arrangement.places[self.recording.inputs[name]]
         if _are_fixed(rows.re):
             cells = [place.text(k) for k in rows.value.reshape(-1).tolist()]

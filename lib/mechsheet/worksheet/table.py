@@ -4,6 +4,7 @@ import ast
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from datetime import date
 from types import FrameType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -192,10 +193,11 @@ def table(
 
     An argument is a name, an input such as ``g.F``, ``g.bolts.x`` or, of texts, ``g.bolts.name``, in another order
     ``g.bolts.name[order]``, ``P23_S.real`` or ``.imag`` (columns X23, Y23 of a point, R56x, R56y of a force) or
-    ``abs(R56)`` (column R56). Quantities over several axes are listed with the last one running fastest. ``show`` gives
-    another display unit for some columns, by heading or as the argument is written. ``note`` stands below the table.
-    ``decimals`` are printed in all columns, by default as many as the unit asks for; whole numbers have none. ``every``
-    lists only every so many positions, from the first.
+    ``abs(R56)`` (column R56). A name may be one of texts or dates too, in an array or a list. Quantities over
+    several axes are listed with the last one running fastest. ``show`` gives another display unit for some columns,
+    by heading or as the argument is written. ``note`` stands below the table. ``decimals`` are printed in all
+    columns, by default as many as the unit asks for; whole numbers have none. ``every`` lists only every so many
+    positions, from the first.
     """
     _named("table", number, title, every)
     if not (decimals is None or (isinstance(decimals, int | np.integer) and decimals >= 0)):
@@ -257,6 +259,11 @@ def _columns(
         given = _input(frame.f_globals, node) or _texts_of(frame.f_globals, value)
         name, part = _name(node) if not given or isinstance(node, ast.Name) else (_of_table(node), "")
         is_label = bool(given and given.is_text and np.ndim(value)) and of.startswith("table")
+        said = None if is_label or not of.startswith("table") else as_texts(value)
+        if said is not None and said.ndim:
+            columns.append(Column(heading(name), "", _meaning(known, name), 0, as_texts(row)))  # type: ignore[arg-type]
+            called |= dict.fromkeys((heading(name), name, ast.unparse(node)), heading(name))
+            continue
         if (kind := np.asarray(value).dtype.kind) not in "iufb" and not is_label:
             why = _NOT_SHOWN.get(kind if kind == "c" or of.startswith("table") else "", "no number")
             why = why.replace("NAME", name)
@@ -365,9 +372,30 @@ def _texts_of(namespace: Mapping[str, Any], value: Any) -> Input | None:
     return next((leaf for leaf, held in every if held is value or (texts and texts <= {*map(id, held)})), None)
 
 
+def as_texts(value: Any) -> NDArray[Any] | None:
+    """Texts of an array or a list, dates as they are written; None of what holds anything else."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows that are not as long as each other
+        return None
+    if array.dtype.kind == "M":
+        return np.array(np.datetime_as_string(array), object)
+    if array.dtype.kind not in "OU" or not all(isinstance(each, str | date) for each in array.flat):
+        return None
+    return np.array([str(each) for each in array.flat], object).reshape(array.shape)
+
+
+def _meaning(known: Mapping[str, Any], name: str) -> str:
+    """What a line says of texts, which have no unit."""
+    try:
+        return str(known[name].meaning)
+    except (KeyError, SheetError):
+        return ""
+
+
 _NOT_SHOWN = {
     "c": "a point or a force: take NAME.real and NAME.imag, or abs(NAME)",
-    **dict.fromkeys("OU", "no number; texts are columns as inputs, such as g.bolts.name or g.bolts.name[order]"),
+    **dict.fromkeys("OU", "neither a number nor a column of texts"),
 }
 
 
