@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from by_cells import by_cells
+from own_worksheet import written
 
 from mechsheet import (
     DriveMoment,
@@ -14,9 +16,12 @@ from mechsheet import (
     balance,
     coupling_drive,
     left_over,
+    load,
     magnitudes,
     solve_reactions,
 )
+from mechsheet.readers.numbers import numbers
+from mechsheet.recording.record import record
 
 # A crank O-A, a rod A-C, a slider C on the x axis against 400 N, the rod of 20 N in its middle
 PHI = np.linspace(0, 2 * np.pi, 37)
@@ -107,3 +112,28 @@ def test_shapes_that_do_not_broadcast_are_refused_by_name(function) -> None:
         function(loads, [PinReaction(1, 2, 0, 0), PinReaction(2, 0, 0, 0), PinReaction(1, 0, 0, 0)])
     with pytest.raises(ValueError, match=r"reactions\[0\].F \(2,\), reactions\[1\].P \(3,\)"):
         magnitudes([PinReaction(1, 0, np.ones(2), 0), SlideReaction(1, 0, 0, np.ones(3), 1, np.ones(3))])
+
+
+def test_bodies_are_followed_for_other_numbers_of_positions(tmp_path) -> None:
+    """The page knew no equilibrium as soon as there were more positions: the shapes were looked at to refuse them."""
+    lines = """
+phi = np.linspace(0, 3, g.k)
+R, A = g.F * np.exp(2j * phi), np.exp(1j * phi)
+loads, reactions = [[Load(-R, A)]], [PinReaction(1, 0, R, 0j), DriveMoment(1, cross(A, R))]
+left = left_over(loads, reactions)
+found = solve_reactions(loads, reactions)
+y = np.abs(left.F[0]) + magnitudes(reactions)[..., 2] + found[..., 2]  # [N] result
+table_1 = table("1", "All", y)
+"""
+    names = "DriveMoment, Load, PinReaction, ask, cross, inputs, left_over, magnitudes, read, solve_reactions, table"
+    path = tmp_path / "bodies.py"
+    given = "F: float = 2.0  # [N] force\nk: int = 4  # [-] how many; > 1"
+    path.write_text(written(f"import numpy as np\nfrom mechsheet import {names}", given, lines))
+    sheet = load(path)
+    run = sheet.run(sheet.results, {"g": sheet.inputs()})
+    recording = record({**run, "__file__": sheet.path}, whole=True, every=1, draws=True)
+    assert not recording.gaps
+    (column,) = recording.tables["1"]
+    assert column is not None
+    more = {recording.inputs["k"]: np.array(7.0)}
+    np.testing.assert_allclose(numbers([column.re], more)[column.re], by_cells(path, ["y"], k=7)["y"], atol=1e-12)

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mechsheet.mechanics.arguments import Complex, Float, shape_error
+from mechsheet.mechanics.arguments import Complex, Float, broadcasting
 from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.planar import cross, dot
@@ -93,6 +93,7 @@ class Left(NamedTuple):
     M: Float  # [N m] sum of the moments about the point of the body's first load
 
 
+@broadcasting
 def left_over(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) -> Left:
     """Sums of the forces and of the moments on each body, loads and reactions together.
 
@@ -125,6 +126,7 @@ def left_over(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) ->
     return Left(np.array(np.broadcast_arrays(*forces)), np.array(np.broadcast_arrays(*moments)))
 
 
+@broadcasting
 def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) -> Float:
     """Magnitudes of all reactions at once, from three equations of equilibrium for each body.
 
@@ -175,10 +177,9 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
     return result
 
 
+@broadcasting
 def magnitudes(reactions: Sequence[Reaction]) -> Float:
     """Magnitudes of given reactions in the order in which `solve_reactions` finds them, shape (..., unknowns)."""
-    if error := shape_error({"reactions": reactions}):
-        raise error
     return np.stack(np.broadcast_arrays(*(m for r in reactions for m in r.magnitudes)), axis=-1)
 
 
@@ -235,5 +236,3 @@ def _numbered(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) ->
     for r in reactions:
         if not (0 <= r.on <= len(loads) and 0 <= r.by <= len(loads)):
             raise ValueError(f"reaction on the body {r.on} by the body {r.by}: there are bodies 0..{len(loads)}")
-    if error := shape_error({"loads": loads, "reactions": reactions}):
-        raise error
