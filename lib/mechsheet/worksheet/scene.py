@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import base
 from mechsheet.worksheet.errors import SheetError, as_given, cut
 from mechsheet.worksheet.kinds import converted, number, number_and_unit
@@ -44,7 +45,8 @@ class Limit(NamedTuple):
             try:
                 ends.append(converted(x, other, unit) if x is not None and other else x)
             except ValueError as error:
-                raise SheetError(f"limit {x:.10g} {other} of {name}: {error}") from None
+                given = numbers.significant(x or 0.0, 10)
+                raise SheetError(f"limit {given} {other} of {name}: {error}") from None
         least, most = ends
         if least is not None and most is not None and least > most:
             raise SheetError(f"limit of {name}: min is above max")
