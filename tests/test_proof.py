@@ -20,7 +20,7 @@ from mechsheet.document import parts
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.readers.ball_rules import MADE, NONE, SINGLE, UNDECIDED
 from mechsheet.readers.balls import krawczyk
-from mechsheet.readers.proof import Proof
+from mechsheet.readers.proof import Proof, _within
 from mechsheet.recording.record import record
 from mechsheet.run import batch
 from mechsheet.run.proving import proof_of, proof_of_wanted
@@ -152,6 +152,12 @@ def sheet_of(tmp_path: Path, lines: str, **given: Any) -> Proof:
         sheet,
         record({**names, "__file__": sheet.path}, sheet, whole=True, exact=True),
     )
+
+
+def test_a_condition_that_is_not_decided_is_not_0() -> None:
+    """It ended the proof of a whole worksheet, and its export, in an error: its ball is a plain number."""
+    assert not _within(np.array([0.0, UNDECIDED], object), 1e-3)
+    assert _within(np.array([0.0, 0.0], object), 1e-3)
 
 
 def test_roots_are_proved_alone_or_others_told(tmp_path: Path) -> None:
