@@ -2,7 +2,6 @@
 
 import ast
 import inspect
-import sysconfig
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cache
@@ -17,7 +16,6 @@ from mechsheet.recording.exactly import Unmoved
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.source import bound
 
-_OTHERS = tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")})
 Shared = Callable[[Mapping[str, Any]], dict[str, Any]]
 
 
@@ -33,11 +31,19 @@ def is_own(value: Any) -> bool:
 
 
 @cache
+def _installed() -> tuple[str, ...]:
+    """Folders of modules that are no user's own."""
+    import sysconfig  # on use: only a proof asks
+
+    return tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")})
+
+
+@cache
 def _is_own(module: str) -> bool:
     held = vars(modules[module]) if module in modules else {}
     file = str(held.get("__file__") or "")
     is_worksheet = type(held.get("app")).__name__ == "App"
-    others = is_worksheet or module.startswith(("mechsheet.", "__main__")) or file.startswith(_OTHERS)
+    others = is_worksheet or module.startswith(("mechsheet.", "__main__")) or file.startswith(_installed())
     return bool(file) and not others
 
 
