@@ -123,6 +123,7 @@ class Worksheet:
         """
         givers = {name: cell for cell in self.cells for name in cell.gives}
         known, order, begun = set(self.common) | set(given), list[Cell](), dict[Cell, str]()
+        named = {**self.common, **givers}
 
         def ask(name: str) -> None:
             if name in known:
@@ -149,7 +150,7 @@ class Worksheet:
 
         for name in want:
             root, checking = base(name), list[Cell]()
-            if not is_result(root, {**self.common, **givers}):
+            if not is_result(root, named):
                 checking = [cell for cell in self.cells if any(re.fullmatch(check, name) for check in cell.checks)]
             if not checking and (root in known or root in givers):
                 ask(root)
