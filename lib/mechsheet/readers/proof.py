@@ -317,8 +317,8 @@ _EXACTLY = {"iterated": "a loop takes other turns", "where": "another way is tak
 
 
 def _within(balls: Values, size: float) -> bool:
-    finite = (x is not NONE and (isinstance(x, float) or x.is_finite()) for x in balls.flat)  # a condition is a float
-    return all(known and bool(abs(x) <= size) for known, x in zip(finite, balls.flat, strict=True))
+    known = (x is not NONE and (isinstance(x, float) or x.is_finite()) and abs(x) <= size for x in balls.flat)
+    return all(map(bool, known))  # of a condition the ball is a plain number
 
 
 def _most(moves: Values) -> float:

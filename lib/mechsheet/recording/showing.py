@@ -97,10 +97,7 @@ def _calls(node: ast.AST, showing: frozenset[str]) -> list[ast.expr]:
 
 def texts(cell: Cell) -> list[ast.expr]:
     """The text in which a cell ends, and those between what it shows, where they are others for other inputs."""
-    calls = (node for line in cell.lines for node in source.nodes(line) if isinstance(node, ast.Call))
-    shown = [
-        part for call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset" for part in call.args
-    ]
+    shown = [part for line in cell.lines for call in source.calls_of(line, "typeset") for part in call.args]
     notes = _notes(cell)
     parts = [_prose(part, notes) or part for part in shown]
     match cell.lines[-1:]:

@@ -40,7 +40,6 @@ from mechsheet.worksheet.no_inputs import beforehand
 from mechsheet.worksheet.results import Displayed
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Column, Figure, Table
-from mechsheet.worksheet.typeset import typeset
 
 _SAME = 1e-12  # of the greatest value of a result: what differs by less is rounding
 _ZERO = 1e-13  # of the greatest value of its dimension: a result that is less may be zero but for rounding
@@ -188,8 +187,7 @@ def _meanings(declared: type, names: dict[str, Any]) -> Iterator[tuple[str, str]
 
 def _prose(sheet: Worksheet) -> Iterator[tuple[str, str]]:
     for cell in sheet.cells:
-        calls = (node for line in cell.lines for node in source.nodes(line) if isinstance(node, ast.Call))
-        beside = (call.args for call in calls if isinstance(call.func, ast.Name) and call.func.id == typeset.__name__)
+        beside = (call.args for line in cell.lines for call in source.calls_of(line, "typeset"))
         for text in chain(source.texts(cell.lines), *beside):
             if not isinstance(text, ast.Constant | ast.JoinedStr):
                 continue

@@ -90,7 +90,8 @@ def _with(cell: str, call: ast.Call, was: Iterable[str], now: Sequence[str], end
     """Text of a cell in which a call has other arguments in the place of those of before, or as its last ones."""
     texts = [ast.get_source_segment(cell, each) or "" for each in call.args]
     old = {mark + name for name in was for mark in ("", "*")}
-    new = [name for name in now if not _read(call).intersection([name.removeprefix("*")]) or name in old]
+    read = {node.id for node in ast.walk(call) if isinstance(node, ast.Name)}
+    new = [name for name in now if name.removeprefix("*") not in read or name in old]
     at = next((n for n, text in enumerate(texts) if text in old), len(texts))
     listed = [text for text in texts[:at] if text not in old]
     listed += [*new, *(text for text in texts[at:] if text not in old)]
@@ -106,7 +107,3 @@ def _with(cell: str, call: ast.Call, was: Iterable[str], now: Sequence[str], end
     if len(one.rstrip()) > _WIDE or any("\n" in text for text in listed):
         one = end.join([f"{before}{call.func.id}(", *(f"{before}    {text}," for text in listed), f"{before}){after}"])
     return "".join([*rows[:first], one, *rows[last:]])
-
-
-def _read(call: ast.Call) -> set[str]:
-    return {node.id for node in ast.walk(call) if isinstance(node, ast.Name)}

@@ -411,10 +411,8 @@ def _lines(cells: tuple[source.Cell, ...]) -> dict[str, _Line | SheetError]:
 
 def _display(node: ast.stmt) -> ast.expr | None:
     """Display units that a statement of a cell gives to typeset."""
-    for call in source.nodes(node):
-        match call:
-            case ast.Call(ast.Name("typeset"), _, keywords):
-                return next((k.value for k in keywords if k.arg == "display"), None)
+    for call in source.calls_of(node, "typeset"):
+        return next((k.value for k in call.keywords if k.arg == "display"), None)
     return None
 
 

@@ -11,7 +11,6 @@ from traceback import walk_tb
 from types import FrameType
 
 from mechsheet import units
-from mechsheet.worksheet import imports
 from mechsheet.worksheet.errors import SheetError, nearest
 
 
@@ -43,6 +42,8 @@ def undefined(name: str, known: Iterable[str], inputs: Container[str] = ()) -> s
     >>> undefined("cos", ["cos_1"])
     'the name cos is not defined in any cell (add from numpy import cos to the setup, the first cell)'
     """
+    from mechsheet.worksheet import imports  # on use: a worksheet without mistakes needs nothing of it
+
     line = imports.origin(name)
     hint = f" (add {line} to {_SETUP})" if line else _near(name, known)
     hint = f" ({_ELSEWHERE[name]})" if name in _ELSEWHERE else f" ({_PRODUCT})" if _DOT in name else hint
@@ -232,6 +233,8 @@ _GUESS = r"( here)?\. (Perhaps|Maybe) .*"
 
 def _product(error: SyntaxError, text: str) -> str:
     """Where a * may be missing, or brackets behind a function: between two parts that stand beside each other."""
+    from mechsheet.worksheet import imports  # on use: as above
+
     for found in _BESIDE.finditer(text):
         left, right = (part for part in found.groups() if part)
         if found.end() < (error.offset or 0) or {left, right} & {*keyword.kwlist}:

@@ -164,6 +164,14 @@ def nodes(tree: ast.AST) -> tuple[ast.AST, ...]:
     return tuple(found)
 
 
+def calls_of(tree: ast.AST, name: str) -> Iterator[ast.Call]:
+    """Calls of the function of that name."""
+    for node in nodes(tree):
+        match node:
+            case ast.Call(ast.Name(called)) if called == name:
+                yield node
+
+
 _SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
 _INNER = (ast.Lambda, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp)
 

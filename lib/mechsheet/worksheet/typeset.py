@@ -107,9 +107,7 @@ def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:
 @lru_cache(maxsize=1000)
 def typeset_lines(cell: source.Cell) -> tuple[int, ...]:
     """Lines in which the statements of a cell end that call typeset."""
-    calls = ((node, call) for node in cell.body for call in source.nodes(node) if isinstance(call, ast.Call))
-    named = (node for node, call in calls if isinstance(call.func, ast.Name) and call.func.id == "typeset")
-    return tuple(node.end_lineno or node.lineno for node in named)
+    return tuple(node.end_lineno or node.lineno for node in cell.body for _ in source.calls_of(node, "typeset"))
 
 
 class Numbers:
