@@ -438,6 +438,13 @@ def test_same_input_gives_the_same_bytes() -> None:
     assert properties.title == "Tractor hitch"
 
 
+def test_a_long_workbook_tells_how_much_of_it_is_written() -> None:
+    """Of the work with a sheet, putting its cells is the smaller part."""
+    seen: list[tuple[int, int]] = []
+    data(tables=[TABLE, replace(TABLE, number="4.2")], done=lambda *step: seen.append(step))
+    assert [behind for behind, _ in seen] == [1, 2] and {count for _, count in seen} == {2 * writing._PACKED}
+
+
 def test_workbook_of_nothing_opens() -> None:
     empty = writing.workbook("t", inputs=[], found=[], tables=[], figures=[], checks=[])
     assert load_workbook(BytesIO(empty)).sheetnames == ["Front", "Inputs", "Checks"]

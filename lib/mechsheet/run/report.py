@@ -24,6 +24,7 @@ from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.record import record, record_every_line
 from mechsheet.run import arguments, ending
 from mechsheet.run.ending import say
+from mechsheet.run.progress import if_long
 from mechsheet.run.proving import proof_of
 from mechsheet.workbook import inputs_sheet, writing
 from mechsheet.workbook.arrangement import too_long
@@ -277,18 +278,20 @@ def _workbook(
 ) -> bytes:
     """The workbook of a run with the ``values`` that it shows, with the limits of a scene instead of their ``own``."""
     limits = {check.name: check.limit for check in _of(Check, own)}
-    return writing.workbook(
-        title,
-        inputs=inputs_sheet.rows(inputs_of(namespace)),
-        found=list(solved(namespace)),
-        tables=_of(Table, values),
-        figures=_of(Figure, values),
-        checks=_of(Check, values),
-        recording=recording,
-        index=index.of_worksheet(namespace),
-        fixed={check.name for check in _of(Check, values) if limits.get(check.name, check.limit) != check.limit},
-        proved={check.name: digits for check, digits in (proved or {}).items()},
-    )
+    with if_long("workbook") as shown:
+        return writing.workbook(
+            title,
+            inputs=inputs_sheet.rows(inputs_of(namespace)),
+            found=list(solved(namespace)),
+            tables=_of(Table, values),
+            figures=_of(Figure, values),
+            checks=_of(Check, values),
+            recording=recording,
+            index=index.of_worksheet(namespace),
+            fixed={check.name for check in _of(Check, values) if limits.get(check.name, check.limit) != check.limit},
+            done=shown,
+            proved={check.name: digits for check, digits in (proved or {}).items()},
+        )
 
 
 def _of(kind: type[T], values: Iterable[Any]) -> list[T]:

@@ -1,7 +1,8 @@
 """Workbooks as the bytes of a file: that of a worksheet, and that of scenes side by side."""
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import replace
+from itertools import count
 
 from mechsheet.quantities.lines import Recording
 from mechsheet.workbook import (
@@ -26,6 +27,8 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.table import Column, Figure, Table
 
+_PACKED = 4  # times as long as putting the cells takes the whole file
+
 
 def workbook(
     title: str,
@@ -39,6 +42,7 @@ def workbook(
     fixed: Container[str] = (),
     index: Index | None = None,
     proved: Mapping[str, float] | None = None,
+    done: Callable[[int, int], object] = lambda behind, count: None,
 ) -> bytes:
     """Bytes of an .xlsx file; on one machine, with the same versions, the same input gives the same bytes.
 
@@ -50,6 +54,7 @@ def workbook(
     With a ``recording`` of the worksheet the cells hold formulas beside their values, and its lines, with the steps
     that need a cell, are listed by sections on sheets of their own at the end, in SI units, which are not printed; of
     the ``fixed`` checks a scene has set the limit, and those of a proof have the digits ``proved``, by their names.
+    ``done`` is called with how many of how many parts of the work are behind.
     A table's sheet has its title in row 1, its note in row 2, symbols in row 3, units in row 4, then the numbers
     to their last bit; pandas reads it by ``read_excel(file, sheet_name=name, header=2, skiprows=[3])``. NaN is
     the error value #N/A and an infinite number #NUM!: pandas reads both as NaN, charts leave a gap.
@@ -74,6 +79,8 @@ def workbook(
     if found:
         find_sheet.write(book, found, formulas)
     greys = [formulas.exported(table) if formulas else () for table in tables]
+    sections = formulas.arrangement.sections if formulas else ()
+    put, all_parts = count(1), _PACKED * (len(tables) + len(alone) + len(sections))
     for table, name, grey in zip(tables, names, greys, strict=True):
         held = [figure for figure, holder in zip(figures, holders, strict=True) if holder is table]
         columns = table_sheet.contents(table, formulas)
@@ -84,12 +91,14 @@ def workbook(
         sheet, spots = table_sheet.write(book, name, heading, note, columns, len(held), grey=grey)
         for figure, spot in zip(held, spots, strict=True):
             charts.insert(sheet, spot, figure, name, table.columns, grey)
+        done(next(put), all_parts)
     for figure, table, name in zip(alone, data, names_of_data, strict=True):
         columns = table_sheet.contents(table, formulas)
         grey = formulas.exported(table) if formulas else ()
         note = table_sheet.not_followed(table.columns, grey)
         sheet, (spot,) = table_sheet.write(book, name, table.title, note, columns, 1, grey=grey)
         charts.insert(sheet, spot, figure, name, table.columns, grey)
+        done(next(put), all_parts)
     checks_sheet.write(book, checks, formulas, fixed, proved)
     if index and (index.formulas or index.errata):
         sheets = {("table", table.number): name for table, name in zip(tables, names, strict=True)}
@@ -98,8 +107,9 @@ def workbook(
         sheets |= {("figure", f.number): name for f, name in zip(alone, names_of_data, strict=True)}
         index_sheet.write(book, index, sheets, formulas)
     if formulas:
-        for section in formulas.arrangement.sections:
+        for section in sections:
             section_sheets.write(book, section, formulas)
+            done(next(put), all_parts)
     charts.marks()
     listed = charts.drawn or [_listed(*each) for each in zip(tables, names, greys, strict=True)]
     results = front_sheet.results(found, listed, formulas)
