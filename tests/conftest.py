@@ -25,7 +25,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis.strategies import just
 from office import Office
-from openpyxl import load_workbook
 
 from mechsheet.units import definitions
 
@@ -154,9 +153,11 @@ def recalculated_files(office: Office, tmp_path: Path) -> Callable[[list[Path]],
 
 
 @pytest.fixture
-def recalculated_all(recalculated_files: Callable[[list[Path]], list[Path]]) -> Callable[[list[Path]], list[Any]]:
-    """Workbooks as LibreOffice computes them."""
-    return lambda paths: [load_workbook(path, data_only=True) for path in recalculated_files(paths)]
+def recalculated_all(office: Office, tmp_path: Path) -> Callable[[list[Path]], list[Any]]:
+    """The values of workbooks as LibreOffice computes them."""
+    out = tmp_path / "values"
+    out.mkdir()
+    return lambda paths: [office.values(path, out) for path in paths]
 
 
 @pytest.fixture

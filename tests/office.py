@@ -1,7 +1,9 @@
 """A LibreOffice that stays open for all workbooks of a process: to start one takes longer than most of them.
 
-A macro in a profile of its own watches a folder for jobs, each a file with two lines: where a workbook is, and where it
-goes as LibreOffice has computed it. A job is done once its file is gone; one that failed has another name then.
+A macro in a profile of its own watches a folder for jobs, each a file with three lines: where a workbook is, where it
+goes as LibreOffice has computed it, and whether its values are wanted alone, as texts of 17 digits a sheet: a workbook
+takes as long to be written as to be computed. A job is done once its file is gone; one that failed has another name
+then.
 """
 
 from __future__ import annotations
@@ -14,14 +16,17 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
+from written_cells import Values
+
 _DOCTYPE = '<!DOCTYPE {0} PUBLIC "-//OpenOffice.org//DTD OfficeDocument 1.0//EN" "{1}.dtd">'
 _LIBRARY = 'xmlns:library="http://openoffice.org/2000/library"'
 # It ends by itself ten minutes after the last job, should the process end that has started it and not it.
 _MACRO = """Sub Watch(folder As String)
-  Dim hidden(0) As New com.sun.star.beans.PropertyValue, kept(0) As New com.sun.star.beans.PropertyValue
-  Dim book As Object, job As String, source As String, target As String, idle As Long
+  Dim hidden(0) As New com.sun.star.beans.PropertyValue, kept(1) As New com.sun.star.beans.PropertyValue
+  Dim book As Object, job As String, source As String, target As String, kind As String, idle As Long
+  Dim i As Long, digits As Long, nowhere As New com.sun.star.lang.Locale
   hidden(0).Name = "Hidden" : hidden(0).Value = True
-  kept(0).Name = "FilterName" : kept(0).Value = "Calc MS Excel 2007 XML"
+  kept(0).Name = "FilterName" : kept(1).Name = "FilterOptions"
   Do While idle < 30000
     job = Dir(folder & "/*.job")
     If job = "" Then
@@ -33,8 +38,18 @@ _MACRO = """Sub Watch(folder As String)
       Open folder & "/" & job For Input As #1
       Line Input #1, source
       Line Input #1, target
+      Line Input #1, kind
       Close #1
       book = StarDesktop.loadComponentFromURL(source, "_blank", 0, hidden())
+      If kind = "values" Then
+        digits = book.NumberFormats.addNew("0.0000000000000000E+000", nowhere)
+        For i = 0 To book.Sheets.Count - 1
+          book.Sheets(i).NumberFormat = digits
+        Next
+        kept(0).Value = "Text - txt - csv (StarCalc)" : kept(1).Value = "44,34,76,1,,0,true,false,true,false,false,-1"
+      Else
+        kept(0).Value = "Calc MS Excel 2007 XML" : kept(1).Value = ""
+      End If
       book.storeToURL(target, kept())
       book.close(True)
       Kill folder & "/" & job
@@ -82,20 +97,27 @@ class Office:
 
     def computed(self, paths: Sequence[Path], out: Path) -> list[Path]:
         """Workbooks as LibreOffice saves them in a folder."""
-        made = [out / path.name for path in paths]
-        for path, to in zip(paths, made, strict=True):
-            self._start()
-            to.unlink(missing_ok=True)
-            written, job = self.folder / "next", self.folder / "workbook.job"
-            written.write_text(f"{path.as_uri()}\n{to.as_uri()}\n", encoding="utf-8")
-            written.rename(job)
-            deadline = time.monotonic() + self.within
-            while job.exists():
-                assert self.process and self.process.poll() is None, "LibreOffice has ended"
-                assert time.monotonic() < deadline, f"LibreOffice does not answer about {path.name}"
-                time.sleep(0.02)
-            assert to.exists(), f"LibreOffice cannot compute {path.name}"
-        return made
+        for path in paths:
+            (out / path.name).unlink(missing_ok=True)
+            self._do(path, out / path.name, "workbook")
+            assert (out / path.name).exists(), f"LibreOffice cannot compute {path.name}"
+        return [out / path.name for path in paths]
+
+    def values(self, path: Path, out: Path) -> Values:
+        """What LibreOffice computes of a workbook."""
+        self._do(path, out / f"{path.stem}.csv", "values")
+        return Values.of_texts(path, lambda title: out / f"{path.stem}-{title}.csv")
+
+    def _do(self, path: Path, to: Path, kind: str) -> None:
+        self._start()
+        written, job = self.folder / "next", self.folder / "workbook.job"
+        written.write_text(f"{path.as_uri()}\n{to.as_uri()}\n{kind}\n", encoding="utf-8")
+        written.rename(job)
+        deadline = time.monotonic() + self.within
+        while job.exists():
+            assert self.process and self.process.poll() is None, "LibreOffice has ended"
+            assert time.monotonic() < deadline, f"LibreOffice does not answer about {path.name}"
+            time.sleep(0.02)
 
     def _start(self) -> None:
         if self.process is None or self.process.poll() is not None:

@@ -13,6 +13,7 @@ import pytest
 from conftest import ROOT, alive, drawn, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
 from test_page import choose, choose_by_keys
+from written_cells import Values
 
 from mechsheet import __main__ as launcher
 from mechsheet.document.left_out import left_out, unseen
@@ -179,7 +180,6 @@ def edit_in_place(editor):
 
 
 def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
-    from openpyxl import load_workbook
 
     page = editor.page
     editor.expect_last_moment("420")
@@ -208,7 +208,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     with page.expect_download() as download:
         page.get_by_text("Excel workbook").click()
     download.value.save_as(tmp_path / "lever.xlsx")
-    sheet = load_workbook(tmp_path / "lever.xlsx", data_only=True)["1 Moment of the lever"]
+    sheet = Values(tmp_path / "lever.xlsx")["1 Moment of the lever"]
     values = [cell.value for row in sheet.iter_rows() for cell in row if isinstance(cell.value, int | float)]
     assert max(v for v in values if v < 1) == pytest.approx(0.42)
     page.get_by_text("Page in one file").click()  # which would have the lines of the file, where nothing is saved

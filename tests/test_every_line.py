@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 from as_script import as_script
-from openpyxl import load_workbook
 from own_worksheet import written
 from test_recalculation import MADE, computed, edit, lines, lines_apart
+from written_cells import Values
 
 SETUP = """import numpy as np
 from numpy import linspace
@@ -45,7 +45,7 @@ def worksheet(tmp_path: Path) -> Path:
 
 def test_lines_alone_give_a_workbook(worksheet: Path, tmp_path: Path) -> None:
     """Without a table, figure or check it had a list of no lines, and said that all checks pass."""
-    found = lines(load_workbook(computed(worksheet, tmp_path, {}), data_only=True))
+    found = lines(Values(computed(worksheet, tmp_path, {})))
     own = {name: values for (_, name), (_, values) in found.items()}
     one = {"eta": 0.9, "P": 2000, "F_1": 1200, "M": 378, "M_1": 378, "Rx": 1200, "Ry": 2000, "ok": 1, "M_n": 1134}
     one |= {"M_p": 189, "read_of": 378}
@@ -58,7 +58,7 @@ def test_lines_alone_give_a_workbook(worksheet: Path, tmp_path: Path) -> None:
 def test_lines_follow_or_show_no_number(worksheet: Path, recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
     (tmp_path / "other").mkdir()
     there = recalculated(edit(computed(worksheet, tmp_path, {}), {"F": 900.0, "L": 0.5}, tmp_path / "edited.xlsx"))
-    own = load_workbook(computed(worksheet, tmp_path / "other", {"F": 900.0, "L": 0.5}), data_only=True)
+    own = Values(computed(worksheet, tmp_path / "other", {"F": 900.0, "L": 0.5}))
     apart = list(lines_apart(there, own))
     assert len(apart) == 1 and "'read_of'): '#N/A' instead of 405" in apart[0]
 
@@ -70,14 +70,14 @@ def test_what_is_too_long_is_told(tmp_path: Path) -> None:
     path.write_text(written(SETUP, GIVEN, end + "other = g.L * linspace(0, 1, 20)  # [m] other", "Long"))
     told = [line for line in as_script(path).stdout.splitlines() if line.startswith("not there")]
     assert told == [f"not there: {name}, a line of too many numbers" for name in ("long", "most")]
-    assert {name for _, name in lines(load_workbook(tmp_path / "long.xlsx", data_only=True))} == {"other"}
+    assert {name for _, name in lines(Values(tmp_path / "long.xlsx"))} == {"other"}
 
 
 def test_what_no_line_takes_is_found_too(tmp_path: Path) -> None:
     """A found value that stands in a formula alone was on no sheet; one of two unknowns likewise."""
     path = tmp_path / "found.py"
     path.write_text(written(SETUP.replace("ask,", "ask, find,"), GIVEN, FOUND, "Found"))
-    rows = load_workbook(computed(path, tmp_path, {}), data_only=True)["Find"].iter_rows(min_row=3, values_only=True)
+    rows = Values(computed(path, tmp_path, {}))["Find"].iter_rows(min_row=3, values_only=True)
     found = {row[0]: (row[1], row[2], row[9] != "found") for row in rows}
     assert found == {
         "x_1": (pytest.approx(1.5), "-", False),
@@ -120,7 +120,7 @@ def test_lines_of_another_number_of_rows_have_no_number(
     book = computed(path, tmp_path, {})
     edited = [edit(book, {"n": n}, tmp_path / f"{n}.xlsx") for n in (2, 5)]
     same, *others = recalculated_all([book, *edited])
-    own = load_workbook(book, data_only=True)
+    own = Values(book)
     assert not [*lines_apart(same, own)]
     assert {name for _, name in lines(own)} >= {"v_2", "two", "huge", "v_d", "v_f"} and len(lines(own)) == 15
     for there in others:
@@ -146,7 +146,7 @@ def test_lines_without_values_say_so(recalculated: Callable[[Path], Any], tmp_pa
     path.write_text(written(SETUP, GIVEN, EMPTY, "Empty"))
     run = as_script(path)
     assert run.returncode == 1 and "not evaluated  over; there is nothing to check" in run.stdout, run.stderr
-    for book, none in ((load_workbook(tmp_path / "empty.xlsx", data_only=True), "no values"),):
+    for book, none in ((Values(tmp_path / "empty.xlsx"), "no values"),):
         assert {
             name: values for (_, name), (_, values) in lines(book).items() if name in ("over", "twice", "none")
         } == {name: [none] for name in ("over", "twice", "none")}
@@ -177,7 +177,7 @@ def test_what_rounding_makes_whole_is_that_of_the_worksheet(
     assert {"cents", "same"} <= told and "up" not in told, run.stdout
     book = tmp_path / "rounded.xlsx"
     same, other = recalculated_all([book, edit(book, {"L": 0.36, "F": 1700.0}, tmp_path / "edited.xlsx")])
-    assert not [*lines_apart(same, load_workbook(book, data_only=True))]
+    assert not [*lines_apart(same, Values(book))]
     shown = {name: values for (_, name), (_, values) in lines(other).items()}
     assert shown["cents"] == ["#N/A"] and shown["up"] == [4]
 
@@ -233,7 +233,7 @@ def test_a_number_over_an_infinite_one_is_nothing(
     edited = [edit(exported, change, tmp_path / f"{n}.xlsx") for n, change in enumerate(changes)]
     for n, (change, there) in enumerate(zip(changes, recalculated_all(edited), strict=True)):
         (tmp_path / f"{n}").mkdir()
-        here = load_workbook(computed(path, tmp_path / f"{n}", change), data_only=True)
+        here = Values(computed(path, tmp_path / f"{n}", change))
         for (sheet, name), (_, values) in lines(here).items():
             cells = lines(there)[sheet, name][1]
             if name == "left" and change != {"F": force} and change["F"] < 300.0:

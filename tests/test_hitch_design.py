@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 from test_exports import assert_current
+from written_cells import Values
 
 from mechsheet.recording.evaluation import evaluate
 from mechsheet.run.batch import compute
@@ -167,7 +168,7 @@ def test_script_writes_workbook_and_scene(run):
     out, printed = run
     assert sorted(path.name for path in out.iterdir()) == ["designed.toml", "hitch_design.xlsx"]
     assert printed.count("pass  ") == 11 and "FAIL" not in printed
-    book = load_workbook(out / "hitch_design.xlsx", data_only=True)
+    book = Values(out / "hitch_design.xlsx")
     assert [cell.value for cell in book["3.1 Chosen inputs"][5]][:2] == ["L3", "m"]
     assert [name for name in book.sheetnames if name[0].isdigit() and name[1] == "."] == [
         "3.1 Chosen inputs", "3.2 The design over the stroke", "4.1 Designs of the trade-off",
@@ -202,7 +203,7 @@ def test_hitch_opens_the_scene_with_the_promised_reserves(run):
     P6 = names["g"].P6
     least = min(np.min(names["GS6"]), np.min(names["GS6_lim"])) / P6 - 1
     assert f"{100 * least:.4f}" == f"{promised(SCENE)[2]:.4f}"
-    sheet = load_workbook(run[0] / "hitch_design.xlsx", data_only=True)["3.2 The design over the stroke"]
+    sheet = Values(run[0] / "hitch_design.xlsx")["3.2 The design over the stroke"]
     rows = list(sheet.iter_rows(min_row=5, values_only=True))
     reserve = min(min(row[3], row[4]) for row in rows)
     assert f"{reserve:.4f}" == f"{promised(run[0] / 'designed.toml')[2]:.4f}"

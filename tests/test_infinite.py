@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from as_script import as_script
-from openpyxl import load_workbook
 from own_worksheet import written
 from test_counted_turns import recorded
 from test_random_statements import OTHER, by_page, by_reader, plain, sheet_of
 from test_recalculation import computed, disagreements, edit, lines_apart
+from written_cells import Values
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -80,11 +80,11 @@ def test_cells_have_the_exported_number_or_none(
     changes: list[dict[str, Any]] = [{"k": 3.0}, {"z": 0.1}, {"z": 0.2, "k": 1.5}]
     edited = [edit(path, change, tmp_path / f"{n}.xlsx") for n, change in enumerate(changes)]
     same, *others = recalculated_all([path, *edited])
-    own = load_workbook(path, data_only=True)
+    own = Values(path)
     assert not [*disagreements(same, own, r"\d|Front")] and not [*lines_apart(same, own)]
     for n, (change, there) in enumerate(zip(changes, others, strict=True)):
         (tmp_path / f"{n}").mkdir()
-        here = load_workbook(computed(worksheet, tmp_path / f"{n}", change), data_only=True)
+        here = Values(computed(worksheet, tmp_path / f"{n}", change))
         apart = [*disagreements(there, here, r"\d"), *lines_apart(there, here)]
         assert all("'#N/A' instead of" in text for text in apart), "what it does not follow is no number"
         apart = [text for text in apart if "'after'" not in text]  # nobody knows what it passes over

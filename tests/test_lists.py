@@ -13,6 +13,7 @@ import pytest
 from openpyxl import load_workbook
 from test_kinds import script
 from test_recalculation import cell_of, disagreements, edit
+from written_cells import Values
 
 from mechsheet import evaluate, grid, load, sweep
 from mechsheet.page.values import html
@@ -243,7 +244,12 @@ def test_a_list_of_one_element_is_written_and_read_as_a_longer_one(
     """Its line is that of the input itself: its one number stands there in place of a column."""
     assert script(section, "--F=30", "--proof", f"--out={tmp_path}").returncode == 0
     book = recalculated(tmp_path / "section.xlsx")
-    lines = [row for sheet in book.worksheets for row in sheet.values if row[0] == "F" and row[3] == "force"]
+    lines = [
+        row
+        for sheet in book.worksheets
+        for row in sheet.iter_rows(values_only=True)
+        if row[0] == "F" and row[3] == "force"
+    ]
     assert [row[1] for row in lines] == [30e3]
 
 
@@ -297,7 +303,7 @@ def test_the_workbook_follows_each_element(section: Path, tmp_path: Path, recalc
     assert inputs.build(sheet.inputs, read) == inputs.build(sheet.inputs, changed)
     given = ("--F=10; 6.5; 2.5", "--F_max=60.5", "--stringers=2; 25; 30 | 0.5; -12.5; 30")
     assert script(section, f"--out={tmp_path / 'own'}", *given).returncode == 0
-    own = load_workbook(tmp_path / "own" / "section.xlsx", data_only=True)
+    own = Values(tmp_path / "own" / "section.xlsx")
     assert not list(disagreements(recalculated(path), own))
 
 

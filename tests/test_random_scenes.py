@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from openpyxl import load_workbook
 from test_recalculation import ROOT, disagreements, edit, whole
+from written_cells import Values
 
 from mechsheet.run import report
 from mechsheet.worksheet import cells, inputs
@@ -61,7 +61,7 @@ def own(sheet: cells.Worksheet, changes: dict[str, Any]) -> Any:
         refuse_open(checks_of(names))
     except SheetError:
         return None
-    return load_workbook(BytesIO(report.workbook(sheet.title, names, {})), data_only=True)
+    return Values(BytesIO(report.workbook(sheet.title, names, {})))
 
 
 def verdicts(book: Any) -> dict[str, str]:

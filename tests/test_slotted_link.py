@@ -2,7 +2,6 @@
 
 import ast
 import re
-from contextlib import closing
 from dataclasses import replace
 from functools import cache
 from math import pi
@@ -15,8 +14,8 @@ from as_script import as_script
 from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
-from openpyxl import load_workbook
 from printed import agrees, rows
+from written_cells import Values
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import relative_error
@@ -283,12 +282,10 @@ RESULTS = "1 Results (table of page 39)"
 
 def test_its_workbook_has_the_printed_table_and_a_full_turn():
     """The one in exports, which is compared with what the script writes today."""
-    with closing(
-        load_workbook(SHEET.parents[1] / "exports" / "slotted_link.xlsx", read_only=True, data_only=True)
-    ) as book:
-        (first,) = book[RESULTS].iter_rows(6, 6, values_only=True)
-        assert first[:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
-        assert book["5 Full turn"].max_row == 4 + 361
+    book = Values(SHEET.parents[1] / "exports" / "slotted_link.xlsx")
+    (first,) = book[RESULTS].iter_rows(6, 6, values_only=True)
+    assert first[:3] == pytest.approx([300, 76.8132, 1.75342], rel=1e-5)
+    assert book["5 Full turn"].max_row == 4 + 361
 
 
 def test_bad_input_is_one_line_and_writes_nothing(tmp_path):
@@ -319,8 +316,7 @@ def test_position_without_numbers_fails_the_script_and_is_written(tmp_path):
         "FAIL  the link has a direction: 1 <= 0 positions; the slider is at the hinge B at phi1 = 270 deg"
         in done.stdout
     )
-    with closing(load_workbook(tmp_path / "slotted_link.xlsx", read_only=True, data_only=True)) as book:
-        (values,) = book[RESULTS].iter_rows(8, 8, values_only=True)
+    (values,) = Values(tmp_path / "slotted_link.xlsx")[RESULTS].iter_rows(8, 8, values_only=True)
     assert values[0] == pytest.approx(270) and values[1:7] == ("#N/A",) * 6
 
 

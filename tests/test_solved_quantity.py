@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from as_script import as_script
-from openpyxl import load_workbook
 from test_recalculation import edit
 from test_recorded_worksheet import own, recorded, value_of
+from written_cells import Values
 
 from mechsheet import closed_form, evaluate, find, sweep
 from mechsheet.recording.dimensions import mismatches
@@ -134,7 +134,7 @@ def test_the_workbook_has_residuals_and_no_value_of_other_inputs(recalculated: A
 @pytest.mark.office
 def test_an_array_of_problems_is_searched_by_the_cells(recalculated: Any, tmp_path: Path) -> None:
     path = exported(tmp_path, ARRAY)
-    live, stored = recalculated(path), load_workbook(path, data_only=True)
+    live, stored = recalculated(path), Values(path)
     values = [row[0].value for row in live["2 Each"].iter_rows(min_row=5)]
     assert values == pytest.approx([row[0].value for row in stored["2 Each"].iter_rows(min_row=5)], rel=1e-12)
     after = recalculated(edit(path, {"a": 0.5}, tmp_path / "edited.xlsx"))

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from as_script import as_command, as_script
-from openpyxl import load_workbook
 from own_worksheet import written
+from written_cells import Values
 
 from mechsheet import check, evaluate
 from mechsheet.run import batch, rename
@@ -39,7 +39,7 @@ def test_what_no_name_keeps_is_judged(how: str, title: str, tmp_path: Path) -> N
     run = as_script(path)
     assert run.returncode == 1 and "FAIL  a: 1200 <= 1 N" in run.stdout, run.stdout + run.stderr
     if title:
-        rows = load_workbook(tmp_path / "stated.xlsx", data_only=True)["Checks"].iter_rows(min_row=3, values_only=True)
+        rows = Values(tmp_path / "stated.xlsx")["Checks"].iter_rows(min_row=3, values_only=True)
         assert {row[0]: row[4] for row in rows}["a"] == "FAIL"
 
 
