@@ -86,8 +86,7 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_sessionfinish() -> None:
-    """What the tests hold ends with the process: to look through it five times, as pytest does, takes seconds."""
-    gc.collect()
+    """What the tests hold ends with the process: to look through it, as pytest does five times, takes seconds."""
     gc.freeze()
 
 
