@@ -20,8 +20,8 @@ from mechsheet.worksheet.table import Figure, Table
 from mechsheet.worksheet.title import Player, SideBySide, Slider, Title
 from mechsheet.worksheet.typeset import Typeset
 
-_BLANK = re.compile(r"\A(?:[ \t]*\n)+")  # lines at the beginning
-_HEADING = re.compile(r"^(#+) +(.*\S)\s*$", re.MULTILINE)
+_BLANK = r"\A(?:[ \t]*\n)+"  # lines at the beginning
+_HEADING = r"(?m)^(#+) +(.*\S)\s*$"
 _OF_PAGE = {"ask", "export", "save_scene"}  # what they show is there to be pressed or filled in
 
 
@@ -245,13 +245,13 @@ def _asks(node: ast.FunctionDef) -> bool:
 
 def texts(markdown: str) -> Iterator[Section | Text]:
     """Headings of a text and what stands between them."""
-    pieces = _HEADING.split(cleandoc(markdown))
+    pieces = re.split(_HEADING, cleandoc(markdown))
     if pieces[0].strip():
         yield Text(pieces[0].strip())
     for marks, title, text in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         yield Section(len(marks), title)
         if text.strip():
-            yield Text(_BLANK.sub("", text).rstrip())  # its first line may be indented, as code is
+            yield Text(re.sub(_BLANK, "", text).rstrip())  # its first line may be indented, as code is
 
 
 def _parts(value: Any, names: Mapping[str, Any]) -> Iterator[Any]:

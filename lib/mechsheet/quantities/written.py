@@ -13,9 +13,9 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
-_FORMAT = re.compile(r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|")  # which a reader writes too
-_WIDE = re.compile(r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)")  # so wide, with blanks
-_SHORT = re.compile(r"(\+?,?)(\.\d{1,2})?([efg%])")
+_FORMAT = r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|"  # which a reader writes too
+_WIDE = r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)"  # so wide, with blanks
+_SHORT = r"(\+?,?)(\.\d{1,2})?([efg%])"
 
 
 class Number(NamedTuple):
@@ -234,12 +234,12 @@ def said(value: Any) -> Any:
 def _shown(value: Any, spec: str) -> Iterator[Any]:
     """Pieces of a text for a value in its format."""
     blanks = end = ""
-    if isinstance(value, Quantity) and value.graph.draws and (wide := _WIDE.fullmatch(spec)):
+    if isinstance(value, Quantity) and value.graph.draws and (wide := re.fullmatch(_WIDE, spec)):
         spec, blanks = wide[2] + wide[4], (wide[1] or ">") + wide[3]
     if isinstance(value, Chosen):
         options, at = place(value)
         value = Written((OneOf(at, options),)) if isinstance(at, Quantity) else str(value)
-    elif isinstance(value, Quantity) and (short := _SHORT.fullmatch(spec)):
+    elif isinstance(value, Quantity) and (short := re.fullmatch(_SHORT, spec)):
         begin, digits, kind = short[1], short[2] or ".6", short[3]
         value, kind, end = (value * 100, "f", "%") if kind == "%" else (value, kind, "")
         spec = begin + digits + kind
@@ -287,7 +287,7 @@ def looked_at(value: Any) -> Any:
 def _is_followed(value: Any, spec: str) -> bool:
     if isinstance(value, Written):
         return not spec
-    if not isinstance(value, Quantity) or value.re.op == "constant" or not _FORMAT.fullmatch(spec):
+    if not isinstance(value, Quantity) or value.re.op == "constant" or not re.fullmatch(_FORMAT, spec):
         return False
     return value.im is None and value.single and value.dtype.kind in "iuf"
 

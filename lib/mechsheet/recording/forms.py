@@ -168,7 +168,7 @@ def formatted(node: ast.Call) -> ast.JoinedStr | None:
     return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr(pieces), node))
 
 
-_PERCENT = re.compile(r"%(?:(\.\d{1,2})?([efgds])|%)")
+_PERCENT = r"%(?:(\.\d{1,2})?([efgds])|%)"
 
 
 def by_percent(node: ast.BinOp) -> ast.JoinedStr | None:
@@ -183,7 +183,7 @@ def by_percent(node: ast.BinOp) -> ast.JoinedStr | None:
         case _:
             return None
     pieces, end = list[ast.expr](), 0
-    for found in _PERCENT.finditer(text):
+    for found in re.finditer(_PERCENT, text):
         pieces.append(ast.Constant(text[end : found.start()]))
         end, (digits, kind) = found.end(), found.groups()
         if not kind:
@@ -195,7 +195,7 @@ def by_percent(node: ast.BinOp) -> ast.JoinedStr | None:
             form = None if kind in "ds" else ast.JoinedStr([ast.Constant(f"{digits or '.6'}{kind}")])
             pieces.append(ast.FormattedValue(copy.deepcopy(whole if kind == "d" else value), -1, form))
     pieces.append(ast.Constant(text[end:]))
-    if next(values, None) is not None or "%" in _PERCENT.sub("", text):
+    if next(values, None) is not None or "%" in re.sub(_PERCENT, "", text):
         return None
     return ast.fix_missing_locations(ast.copy_location(ast.JoinedStr(pieces), node))
 

@@ -8,7 +8,7 @@ from mechsheet.quantities.written import Either, Number, OneOf, Piece, Written
 from mechsheet.workbook.cell_formula import written
 from mechsheet.workbook.content import quoted
 
-_DECIMALS = re.compile(r"(\+?)(,?)(?:d|\.(\d{1,2})f)")  # of a number that a cell writes as Python does
+_DECIMALS = r"(\+?)(,?)(?:d|\.(\d{1,2})f)"  # of a number that a cell writes as Python does
 _UNKNOWN = '"…"'
 
 
@@ -24,7 +24,7 @@ def text_formula(text: Written, reference: Callable[[Node], str], typed: Callabl
             case str():
                 return quoted(part)
             case Number(value, spec, instead):
-                cell, digits = reference(value.re), _DECIMALS.fullmatch(spec)
+                cell, digits = reference(value.re), re.fullmatch(_DECIMALS, spec)
                 if digits and not instead:
                     sign, comma, decimals = digits.groups()
                     fixed = f"FIXED({cell},{decimals or 0},{'FALSE' if comma else 'TRUE'})"

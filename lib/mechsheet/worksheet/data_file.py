@@ -14,7 +14,7 @@ from mechsheet.worksheet.errors import SheetError, cut
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
-_HEAD = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*")
+_HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
 _NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)
 _MOST = 100_000  # rows that are looked at
 
@@ -69,7 +69,7 @@ def columns(path: Path, wanted: Iterable[str]) -> Columns:
     (first, heads), *body = rows
     units, at = dict[str, str](), dict[str, int]()
     for n, head in enumerate(heads):
-        match = _HEAD.fullmatch(str(head))
+        match = re.fullmatch(_HEAD, str(head))
         if match and match[1] in at:
             raise SheetError(f"file {path}, row {first}: column {match[1]} stands there twice")
         if match:

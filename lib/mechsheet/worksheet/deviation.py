@@ -9,7 +9,7 @@ from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError
 
 SIGMAS = 3.0  # standard deviations that the tolerance of a normal distribution stands for
-_SIGN = re.compile(r"(?:±|\+/?-)\s*(.*?)\s*(normal)?")
+_SIGN = r"(?:±|\+/?-)\s*(.*?)\s*(normal)?"
 _AT_END = re.compile(r"(?:±|\+/?-)\s*[\d.,]+[^;]*$")
 LIKE = "± 0.001, ± 1 % or ± 0.001 normal"
 
@@ -66,7 +66,7 @@ def read(text: str, own: Number, part: Number) -> Deviation:
 
     Raises SheetError naming the input and what cannot be used.
     """
-    match = _SIGN.fullmatch(text.strip())
+    match = re.fullmatch(_SIGN, text.strip())
     amount, normal = (match[1], bool(match[2])) if match else (text.strip(), False)
     field, percent = (part, True) if amount.endswith("%") else (own, False)
     try:

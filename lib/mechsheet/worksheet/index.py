@@ -13,7 +13,7 @@ from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.shown import Shown
 
-_NUMBER = re.compile(r"\(((?:\d+\.)*)(\d+)[a-z]?\)")
+_NUMBER = r"\(((?:\d+\.)*)(\d+)[a-z]?\)"
 _LABELS = re.compile(r"\(((?:appendix|figures?|programs?|sheets?|tables?) [^()]*)\)")
 _HEADING = re.compile(r"^ *#+ +(.*\S)", re.MULTILINE)
 
@@ -99,7 +99,7 @@ def numbers(printed: str) -> list[str]:
     """
     found = list[str]()
     for part in filter(None, printed.split(",")):
-        ends = list(_NUMBER.finditer(part))
+        ends = list(re.finditer(_NUMBER, part))
         (head, first), (_, last) = ends[0].groups(), ends[-1].groups()
         between = (f"({head}{n})" for n in range(int(first) + 1, int(last)))
         found += dict.fromkeys([ends[0][0], *between, ends[-1][0]])

@@ -21,7 +21,7 @@ from mechsheet.worksheet.errors import SheetError
 
 T = TypeVar("T")
 _NUMBER = re.compile(r"([+−-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+−-]?\d+)?)(.*)", re.DOTALL)
-_THOUSANDS = re.compile(r"\W?[1-9]\d{0,2},\d{3}(?!\d)")  # elsewhere read as such, here as a number with a decimal comma
+_THOUSANDS = r"\W?[1-9]\d{0,2},\d{3}(?!\d)"  # elsewhere read as such, here as a number with a decimal comma
 _UNIT = 40  # characters of a unit at most
 
 
@@ -121,7 +121,7 @@ class Input:
 
     def readings(self, value: object) -> Iterator[str]:
         """How a text is read that could mean thousands elsewhere."""
-        if isinstance(value, str) and _THOUSANDS.match(value.strip()):
+        if isinstance(value, str) and re.match(_THOUSANDS, value.strip()):
             read = numbers.significant(self.read(value), 15)
             yield f"{self.name} = {read}{numbers.suffix(self.unit)}, read with a decimal comma"
 

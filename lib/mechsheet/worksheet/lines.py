@@ -222,15 +222,16 @@ def undeclaring(cell: source.Cell, node: ast.stmt) -> Iterator[int]:
     As within a function, a loop or a choice.
     """
     last = node.end_lineno or node.lineno
-    if isinstance(node, ast.ClassDef) or (_bound(node) and declared(cell.comments.get(last, ""))):
+    told = {line: declared(cell.comments[line]) for line in range(node.lineno, last + 1) if line in cell.comments}
+    lines = [line for line, each in told.items() if each and not each.mistake]
+    if not lines or isinstance(node, ast.ClassDef) or (told.get(last) and _bound(node)):
         return
-    earlier = {line.name: Declared(line.unit, line.meaning, "") for line in formulas(cell) if isinstance(line, Formula)}
-    chosen = _chosen(cell, node, earlier) if isinstance(node, ast.If) else ()
-    declaring = {line for each in chosen for line in each.numbers}
-    for line in range(node.lineno, last + 1):
-        told = declared(cell.comments.get(line, ""))
-        if told and not told.mistake and line not in declaring:
-            yield line
+    declaring = set[int]()
+    if isinstance(node, ast.If):
+        given = (line for line in formulas(cell) if isinstance(line, Formula))
+        earlier = {line.name: Declared(line.unit, line.meaning, "") for line in given}
+        declaring = {line for each in _chosen(cell, node, earlier) for line in each.numbers}
+    yield from (line for line in lines if line not in declaring)
 
 
 def on_one_way(namespace: Mapping[str, Any], name: str) -> str:

@@ -190,7 +190,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
         hint = f"{name} is a list: np.array([..]) is {done} element by element"
     elif hint == _SEVERAL and "positional" in said and not re.search(r"\d,\d", text):
         hint = ""  # too many arguments of another kind
-    elif hint == _SEVERAL and (typed := _TYPED.search(text)):  # often it is a line further up
+    elif hint == _SEVERAL and (typed := re.search(_TYPED, text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
     return said + (f" ({hint})" if hint else "")
 
@@ -214,9 +214,9 @@ def unread(error: SyntaxError) -> str:
     text = (error.text or "").partition("#")[0]
     if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate")):  # which say enough
         return error.msg
-    if function := _FUNCTION.match(text):
+    if function := re.match(_FUNCTION, text):
         return f"a function is written {function[1]} = lambda {function[2]}: .."
-    if (word := _WORD.match(text)) and keyword.iskeyword(word[1]) and word[1] != "lambda":
+    if (word := re.match(_WORD, text)) and keyword.iskeyword(word[1]) and word[1] != "lambda":
         return f"{word[1]} is a word of Python: take another name, such as {word[1]}_1"
     if error.msg.endswith("was never closed"):
         opened = text[(error.offset or 1) - 1 :].strip()
@@ -235,7 +235,7 @@ def _product(error: SyntaxError, text: str) -> str:
     """Where a * may be missing, or brackets behind a function: between two parts that stand beside each other."""
     from mechsheet.worksheet import imports  # on use: as above
 
-    for found in _BESIDE.finditer(text):
+    for found in re.finditer(_BESIDE, text):
         left, right = (part for part in found.groups() if part)
         if found.end() < (error.offset or 0) or {left, right} & {*keyword.kwlist}:
             continue
@@ -268,10 +268,10 @@ _HINTS = {
     r"^StopIteration$": "next has found nothing for which its condition holds",
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
 }
-_TYPED = re.compile(r"^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*", re.MULTILINE)
-_FUNCTION = re.compile(r"\s*([^\W\d]\w*)\(([\w\s,]+)\)\s*:?=(?!=)")  # as Mathcad has it
-_WORD = re.compile(r"\s*([a-z]+)\s*(?::[^=]*)?=(?!=)")
-_BESIDE = re.compile(
+_TYPED = r"(?m)^[ \t]*\w+(:\s*\w+)?\s*=[^#=\"'({\[\n]*?\d,\d[^#\n]*"
+_FUNCTION = r"\s*([^\W\d]\w*)\(([\w\s,]+)\)\s*:?=(?!=)"  # as Mathcad has it
+_WORD = r"\s*([a-z]+)\s*(?::[^=]*)?=(?!=)"
+_BESIDE = (
     r"(?<![\w.])(\d[\d.]*(?:[eE][-+]?\d+)?+)\s*+([^\W\d][\w.]*|\()"  # 2a
     r"|([\w.]*\w|[)\]])\s+([\w.]*\w|\()|([)\]])([\w.]+|\()"
 )

@@ -315,11 +315,11 @@ def in_text(unit: str) -> str:
     )
 
 
-_POWER = re.compile(r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b")
-_QUOTED = re.compile(r"((?<!\w)'[^']*'(?!\w)|(?<!\w)&#x27;.*?&#x27;(?!\w))")
-_COMPARED = re.compile("(>|<|&gt;|&lt;)=")
+_POWER = r"(?<!\w)(?<!\w\.)(\d+(?:\.\d*)?)e([+-]?\d+)\b"
+_QUOTED = r"((?<!\w)'[^']*'(?!\w)|(?<!\w)&#x27;.*?&#x27;(?!\w))"
+_COMPARED = "(>|<|&gt;|&lt;)="
 _SIGNS = {">": "≥", "<": "≤", "&gt;": "≥", "&lt;": "≤"}
-_HYPHEN = re.compile(r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )")
+_HYPHEN = r"(?<![\w.)])-(?=[\d.∞])|(?<=\.\.)-|(?<= )-(?= )"
 
 
 def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> str:
@@ -330,14 +330,14 @@ def rewritten(text: str, to: Notation, raised: Callable[[int], str] = str) -> st
     >>> rewritten("-2e-05..3.5e+30 deg, x2e3, '-2e5' must be >= -1", ON_PAGE, units.raised)
     "−2·10⁻⁵..3.5·10³⁰°, x2e3, '-2e5' must be ≥ −1"
     """
-    parts = enumerate(_QUOTED.split(text))
+    parts = enumerate(re.split(_QUOTED, text))
     return "".join(part if n % 2 else _rewritten(part, to, raised) for n, part in parts)
 
 
 def _rewritten(text: str, to: Notation, raised: Callable[[int], str]) -> str:
-    text = _HYPHEN.sub(to.minus, re.sub(r"(?<=\d) deg\b", to.degrees, text))
-    text = _COMPARED.sub(lambda sign: _SIGNS[sign[1]], text)
-    return _POWER.sub(lambda e: to.power.format(e[1], raised(int(e[2])).replace("-", to.minus)), text)
+    text = re.sub(_HYPHEN, to.minus, re.sub(r"(?<=\d) deg\b", to.degrees, text))
+    text = re.sub(_COMPARED, lambda sign: _SIGNS[sign[1]], text)
+    return re.sub(_POWER, lambda e: to.power.format(e[1], raised(int(e[2])).replace("-", to.minus)), text)
 
 
 ON_PAGE = AXIS._replace(power="{}·10{}", degrees="°")  # where nothing can be raised but by signs of their own

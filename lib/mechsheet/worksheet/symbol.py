@@ -22,7 +22,7 @@ _ENDS = "(?=$|[^a-z]|min|max)"  # where an index may begin, not the rest of a wo
 LETTER = rf"(?:(?:pi|nu|mu|chi|lam){_ENDS}|(?!pi|nu|mu|chi|lam(?!b?da))(?:{_WORDS})|[{LETTERS}])"
 DIFFERENCE = rf"d(?=[{LETTERS}]|(?:{_WORDS}){_ENDS})"  # that of detail is none
 _SMALL, _CAPITAL = r"a-zß-öø-ÿ\u0100-\u017fа-яё", "A-ZÀ-ÖØ-ÞА-ЯЁ"
-_NAME = re.compile(rf"(d(?=[A-Z])|{DIFFERENCE}|Δ(?=[^\W\d_]))?({LETTER}|[^\W\d_])_?(\w*)")
+_NAME = rf"(d(?=[A-Z])|{DIFFERENCE}|Δ(?=[^\W\d_]))?({LETTER}|[^\W\d_])_?(\w*)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ def read(name: str) -> Symbol:
     word = re.fullmatch(rf"([{_SMALL}]{{3,}})(\d*(?:_\w*)?)", name)
     if word and not re.match(f"{LETTER}|{DIFFERENCE}", name):
         return Symbol(word[1], _index(word[2]))
-    match = _NAME.fullmatch(name)
+    match = re.fullmatch(_NAME, name)
     if not match:
         return Symbol(name)
     base = GREEK.get(match[2], match[2])

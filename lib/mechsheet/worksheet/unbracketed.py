@@ -6,7 +6,7 @@ from collections.abc import Container
 from mechsheet import units
 
 # Units that no comment begins with as a word, a name or a standard, as one may with bar, min, in, at or EN.
-_ALONE = re.compile(
+_ALONE = (
     r"[mcdku]m[²³]?|m[²³]|[km]g|ms|([kMm]|da)N|[hkMG]?Pa|mbar|[pk]si|[kMm][JW]|kWh|hp|[kM]?Hz|m?rad|deg|arcmin|arcsec"
     r"|rpm|kip|lbf|kgf|inch|ft"
 )
@@ -27,6 +27,6 @@ def unbracketed(comment: str, names: Container[str] = ()) -> str:
         return ""
     used = re.findall(r"[^\W\d_]+", unit)
     product = re.search(r"[*/^·⋅]", unit) and (max(map(len, used), default=0) > 1 or _LETTERS.issuperset(used))
-    if all(name in names for name in used) or not (product or _ALONE.fullmatch(unit)):
+    if all(name in names for name in used) or not (product or re.fullmatch(_ALONE, unit)):
         return ""
     return f"[{unit}] {' '.join(words)}" if units.known(unit) else ""
