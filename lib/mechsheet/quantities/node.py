@@ -153,14 +153,22 @@ def bottom_up(roots: Iterable["Node"], known: Container["Node"]) -> Iterator["No
     stack, begun, done = [*roots], set[Node](), set[Node]()
     while stack:
         node = stack[-1]
-        if node in begun or node in known:
+        if node in begun:
             stack.pop()
-            if node not in done and node not in known:
-                done.add(node)
-                yield node
+            if node in done or node in known:
+                continue
+        elif node in known:
+            stack.pop()
+            continue
         else:
             begun.add(node)
-            stack += [operand for operand in node.operands if operand not in begun]
+            found = _OPERANDS.get(node.op)  # as its operands, of which there are thousands
+            if below := [each for each in (node.args if found is None else found(node.args)) if each not in begun]:
+                stack += below
+                continue
+            stack.pop()
+        done.add(node)
+        yield node
 
 
 def free_of(nodes: Iterable["Node"], made: Iterable["Node"]) -> bool:
