@@ -417,12 +417,17 @@ def _display(node: ast.stmt) -> ast.expr | None:
     return None
 
 
+def dotted(node: ast.Attribute) -> str:
+    """An attribute as it is written."""
+    return f"{node.value.id}.{node.attr}" if isinstance(node.value, ast.Name) else ast.unparse(node)
+
+
 @lru_cache(maxsize=4096)
 def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
     parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
     nodes = (node for part in parts for node in source.nodes(part))
     named = (node for node in nodes if isinstance(node, ast.Name | ast.Attribute))
-    read = (node.id if isinstance(node, ast.Name) else ast.unparse(node) for node in named)
+    read = (node.id if isinstance(node, ast.Name) else dotted(node) for node in named)
     own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)
