@@ -115,6 +115,15 @@ def test_a_line_that_divides_by_zero_refuses_though_nothing_rests_on_it(tmp_path
     assert ask(F=2)[0] is ZeroDivisionError
 
 
+@pytest.mark.filterwarnings("ignore")
+def test_the_greater_of_an_element_that_is_no_number_is_none(tmp_path: Path) -> None:
+    """It was the other one of the two when asked for again."""
+    for line in ("np.maximum(g.F, v[1])", "np.clip(1.0, v[1], 9.0)", "np.minimum(g.F, v[1])"):
+        ask = asked(tmp_path, f"v = np.sqrt(g.F - np.arange(0.0, 5.0))  # [-] gaps\ny = {line}  # [-] one of two", "y")
+        for F in (2.5, 2.5, 2.5, 0.5, 0.5):
+            assert np.isnan(ask(F=F)["y"]) == (F < 1), (line, F)
+
+
 @pytest.mark.parametrize(
     "line",
     [

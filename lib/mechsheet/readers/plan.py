@@ -29,7 +29,8 @@ _SINGLE = {
     "add": "{}+{}", "sub": "{}-{}", "mul": "{}*{}", "div": "{}/{}", "neg": "-{}", "pow": "power({},{})",
     "abs": "abs({})", "sqrt": "sqrt({})", "exp": "exp({})", "log": "log({})", "sin": "sin({})", "cos": "cos({})",
     "tan": "tan({})", "asin": "asin({})", "acos": "acos({})", "atan2": "atan2({},{})", "floor": "float(floor({}))",
-    "round": "float(round({}))", "mod": "{}%{}", "max": "({1} if {1}>{0} else {0})", "min": "({1} if {1}<{0} else {0})",
+    "round": "float(round({}))", "mod": "{}%{}",
+    "max": "({1} if {1}>{0} else {0} if {0}>={1} else no())", "min": "({1} if {1}<{0} else {0} if {0}<={1} else no())",
     "where": "({1} if {0} else {2})", "lt": "{}<{}", "le": "{}<={}", "gt": "{}>{}", "ge": "{}>={}", "eq": "{}=={}",
     "ne": "{}!={}", "and": "({} and {})", "or": "({} or {})", "not": "not {}", "finite": "isfinite({})",
 }  # fmt: skip
@@ -38,6 +39,14 @@ _MANY |= {op: _SINGLE[op] for op in ("lt", "le", "gt", "ge", "eq", "ne")}
 _MATH = ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan2", "floor", "isfinite")
 _NAMES: dict[str, Any] = {name: getattr(math, name) for name in _MATH}
 _NAMES |= {"power": math.pow, "root": plain_root, "NotPlain": NotPlain, "array": np.asarray}
+
+
+def _no() -> float:
+    """Of what is no number, such as an element of an array, Python takes one or the other, and numpy none."""
+    raise NotPlain
+
+
+_NAMES["no"] = _no
 
 
 def plan(inputs: Sequence[Node], wanted: Iterable[Node], same: Iterable[Node], exist: Iterable[Node]) -> Plan:
