@@ -375,12 +375,13 @@ NOT_TOLD = [
     ),
     (f"{OF}y = Polynomial([1.0, g.a]).linspace(5)[1]", "linspace of a Polynomial"),
     ("from scipy.interpolate import CubicSpline\ny = CubicSpline(x, x**2 * g.a).solve(0.5)[0]", "solve of a spline"),
+    ("t = find(lambda t: t * g.a, 0, 1, equals=g.F - 2)\ny = 7.0 if t.reason else t.value", "reason of what is found"),
 ]
 
 
 @pytest.mark.parametrize(("lines", "reason"), NOT_TOLD)
 def test_what_is_not_told_of_a_curve_is_named(lines: str, reason: str, tmp_path: Path) -> None:
-    """It had been said that a Curve, of which the worksheet knows nothing, has no attribute solve."""
+    """It had been said that a Curve or a Solving, of which the worksheet knows nothing, has no such attribute."""
     assert_never_stale(lines, tmp_path)
     (gap,) = recorded(own(tmp_path, lines))[1].gaps
     assert gap.reason == reason

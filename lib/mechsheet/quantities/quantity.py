@@ -392,8 +392,8 @@ def quantities(value: Any) -> Iterator[Quantity]:
             yield from quantities(part)
     elif isinstance(value, dict):
         yield from quantities(list(value.values()))
-    elif hasattr(value, "__dataclass_fields__"):
-        yield from quantities(list(vars(value).values()))
+    elif not isinstance(value, Node) and (fields := getattr(value, "__dataclass_fields__", None)):
+        yield from quantities([getattr(value, name, 0) for name in getattr(value, "__dict__", fields)])
 
 
 def has_quantity(value: Any) -> bool:

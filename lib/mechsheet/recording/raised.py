@@ -12,6 +12,8 @@ from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, quantities
 from mechsheet.quantities.refused import of_library, on_ways
 
+_NOT_ALWAYS = PARTIAL | {"found"}  # a Find without a solution raises an error where its value is read
+
 
 class Refused(NotRecorded):
     """A way that is only supposed raises an error."""
@@ -58,7 +60,7 @@ def tried(*values: Any) -> Any:
     if of_library(sys._getframe(1)):  # which handles errors whatever the numbers are
         return values[0] if values else None
     for node in bottom_up((node for value in quantities(values) for node in value.nodes), ()):
-        if node.op in PARTIAL and node not in graph.always:
+        if node.op in _NOT_ALWAYS and node not in graph.always:
             finite: Any = np.isfinite(Quantity(graph, node))
             if not finite.reduced("all"):
                 raise NotRecorded("it may handle an error")

@@ -29,6 +29,11 @@ class Solving:
     solved: tuple[Solved, ...]
     evaluations: Any = None
 
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        raise NotRecorded(f"{name} of what is found")
+
 
 @contextmanager
 def tried(graph: Graph) -> Iterator[Callable[[Callable[..., Any]], Callable[..., Any]]]:
