@@ -77,16 +77,40 @@ NAMED = {
 }
 
 
+REFUSED = ("np.array(T) * g", "V + g.a *")  # knots that do not rise, and other ends of a periodic curve
+
+
 @pytest.mark.parametrize("lines", FOLLOWED)
 def test_it_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
     seen = [guard for guard in recording.guards.values() if not guard.rows]
-    assert not recording.gaps and bool(seen) is ("np.array(T) * g" in lines), "that such knots are in order"
+    assert not recording.gaps and bool(seen) is any(each in lines for each in REFUSED), "what scipy has an error for"
     assert bool(recording.found) is lines.startswith(ROOT), "a workbook searches what is found"
     for given in ELSEWHERE[2:6]:  # the number of positions is nothing to it
         own_value = evaluate(sheet.path, ["result"], **given)["result"]
         np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-11, err_msg=str(given))
+
+
+PLACES, SOME = "[0.0, 1.0, g.F, 3.25, 5.0, 6.0]", "[1.0, 3.0, 2.0, 2.0, 4.0, 3.0]"
+REFUSES = [
+    f"{KNOTS}y = CubicSpline([0.0, 1.0, 2.0], [2.5, 0.0, g.F], bc_type='periodic')(0.3)",
+    f"{KNOTS}y = PchipInterpolator({PLACES}, {SOME})(5.8)",
+    f"{GRID}y = RegularGridInterpolator(({PLACES},), {SOME})([5.8])",
+    f"{LINE}y = interp1d([0.0, 3.0], [1.0, g.F])([g.F, 0.5])[1]",
+    f"{LINE}y = 1.0 if interp1d([0.0, 3.0], [1.0, 2.0])(g.F) > 1.5 else 5.0",
+    f"{GRID}y = np.where(RegularGridInterpolator(([0.0, 3.0],), [1.0, g.F])([g.F, 0.5]) > 2, 1.0, 2.0)",
+]
+
+
+@pytest.mark.parametrize("lines", REFUSES)
+def test_what_scipy_has_an_error_for_has_no_number(lines: str, tmp_path: Path) -> None:
+    """Of a table that ends before, or a curve that no knots give, a page had numbers where the worksheet has none."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    for F in (2.5, 2.5):
+        evaluate(sheet.path, ["result"], F=F)
+    with pytest.raises(ValueError):
+        evaluate(sheet.path, ["result"], F=3.25)
 
 
 @pytest.mark.parametrize("lines", SEVERAL)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
-from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import LEAVES, Node, bottom_up, free_of
 from mechsheet.quantities.operations import COMPARISONS
 from mechsheet.quantities.quantity import NOTED, Quantity, quantities
@@ -124,13 +124,26 @@ def _tell(graph: Graph, exist: Sequence[Node | None]) -> None:
             note(on_ways(Quantity(graph, each)))
 
 
-def note(exists: Quantity) -> None:
+def needed(holds: Quantity, why: str) -> None:
+    """Note a condition without which a function that a worksheet calls has an error, whatever is read of its result.
+
+    In the turn of a loop and in an integral it is not known.
+    """
+    if any(node.op == "state" for node in bottom_up([holds.re], ())):
+        return
+    there = on_ways(holds)
+    if not there.value:
+        raise NotRecorded(why)
+    note(there, why if holds.graph.refuses else "")  # cells are made for all that is seen
+
+
+def note(exists: Quantity, why: str = _WHY) -> None:
     """Note that Python has no error where a condition holds, for all that is computed, or in a turn of a loop."""
     if exists.graph.sliders.isdisjoint(bottom_up([exists.re], ())):  # which go where the worksheet lets them
         if (told := _told.get()) is not None:
             told.append(exists)
         else:
-            exists.graph.see(exists.re, why=_WHY)
+            exists.graph.see(exists.re, why=why)
 
 
 def on_ways(holds: Quantity) -> Any:

@@ -11,6 +11,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.quantities.refused import needed, refused
 from mechsheet.readers.between import SHARP
 from mechsheet.recording import solving, spline_rules
 from mechsheet.recording.guessed import GUESSED, guessed
@@ -120,13 +121,19 @@ def _looked_up(own: Any, given: dict[str, Any]) -> Callable[..., Any]:
         if not single and len(places) == 1 and len(points) > 1:
             places = [places[0][..., k] for k in range(len(points))]
         axes = [lift(graph, axis) for axis in points]
+        if not single:
+            for axis in axes:
+                spline_rules.rising(axis)
         on = lift(graph, values)
         result = spline_rules.cubic(axes[0], on)(places[0]) if curved else _linear(graph, places, axes, on)
         if extrapolates:
             return result
         for x, axis in zip(places, axes, strict=True):
-            result = np.where(x < axis[0], below, np.where(x > axis[-1], above, result))
-        return result
+            under, over = x < axis[0], x > axis[-1]
+            if bounded and x.ndim:  # of which some may be left out
+                needed(~(under | over).reduced("any"), "scipy has an error for places beyond its table")
+            result = np.where(under, below, np.where(over, above, result))
+        return refused(result) if bounded else result
 
     return function
 

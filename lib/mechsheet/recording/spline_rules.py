@@ -10,10 +10,12 @@ import numpy as np
 
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.quantities.refused import needed
 from mechsheet.recording import solving
 
 _CURVES = frozenset({"PPoly", "CubicSpline", "PchipInterpolator", "Akima1DInterpolator", "BSpline"})
 _MADE = frozenset({"CubicSpline", "PchipInterpolator", "Akima1DInterpolator", "make_interp_spline"})
+_SAME = 1e-15
 _FLAT = 1e-9  # of the largest bend, below which Akima's slope is the mean one
 
 
@@ -38,9 +40,27 @@ def spline(value: Any) -> Any:
             return _of_numbers(own)
         if np.ndim(own(own.x[0] if hasattr(own, "x") else own.t[0])):
             raise NotRecorded(f"scipy's {value.__name__} of several values at a knot")
+        rising(given["x"])
+        if given.get("bc_type") == "periodic":
+            _closing(lift(current.get(), given["y"]))
         return Curve(_pieces(own), *_hermite(given["x"], given["y"], _slopes_of(value.__name__, given)))
 
     return made
+
+
+def rising(x: Any) -> None:
+    """Note that places in a table rise."""
+    rise: Any = np.diff(lift(current.get(), x)) > 0
+    needed(rise.reduced("all"), "scipy has an error for places that do not rise")
+
+
+def _closing(values: Quantity) -> None:
+    """Note that a periodic curve ends as it begins, as far as scipy takes numbers for the same."""
+    first, last = values[0], values[-1]
+    if first.re is not last.re:
+        needed(
+            abs(first - last) <= _SAME * (1 + abs(last)), "scipy has an error for a periodic curve whose ends differ"
+        )
 
 
 def cubic(x: Any, y: Any) -> Callable[[Any], Any]:
