@@ -195,6 +195,7 @@ CONSTRUCTS = [
     "F_max = -1e9\nfor v in x * np.cos(x):\n    if v > F_max:\n        F_max = v\ny = F_max * g.a",
     "i_max = 0\nfor i in range(5):\n    if np.sin(x[i]) > np.sin(x[i_max]):\n        i_max = i\ny = x[i_max] * g.a",
     "y = np.interp(g.F, x / g.F, np.sin(x), period=2.0)",
+    "y = np.interp(x + 7, [-1.0, g.a, 3.0, 6.0], [1.0, 3.0, g.F, 1.0], period=g.F + 3)",
     "y = np.interp(x, np.sort([g.F, g.a, 1.0]), [1.0, 2.0, 3.0])",
     "y = np.sinc(x) + np.deg2rad(g.F) + np.rad2deg(g.a)",
     "y = np.nanargmax(np.where(x > 2.0, np.nan, x)) * g.a",

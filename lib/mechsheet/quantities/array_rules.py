@@ -154,9 +154,13 @@ def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
     return np.transpose(total, [left.index(letter) for letter in result])
 
 
-def interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None) -> Any:
+def interpolated(
+    graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right: Any = None, period: Any = None
+) -> Any:
     x, xp, fp = (lift(graph, v) for v in (x, xp, fp))
     graph.go_together(*xp.parts, *fp.parts, strictly=True)
+    if period is not None:
+        return interpolated(graph, *_unrolled(x, xp, fp, abs(lift(graph, period))))
     if xp.extent == (1,):
         graph.measure(xp.re)
         return fp[0] + 0 * x
@@ -167,6 +171,18 @@ def interpolated(graph: Graph, x: Any, xp: Any, fp: Any, left: Any = None, right
     inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
     return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
+
+
+def _unrolled(x: Quantity, xp: Quantity, fp: Quantity, period: Quantity) -> tuple[Any, Any, Any]:
+    """Places within a period, and a table of it that goes on by one row at both ends."""
+    at: Any = xp % period
+    order: Any = np.argsort(at)
+    at, fp = at[order], fp[order]
+    return (
+        x % period,
+        np.concatenate([at[-1:] - period, at, at[:1] + period]),
+        np.concatenate([fp[-1:], fp, fp[:1]]),
+    )
 
 
 def _of_any_unit(difference: Quantity) -> Quantity:
