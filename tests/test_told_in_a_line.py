@@ -172,6 +172,7 @@ def test_a_class_of_rows_with_values_of_its_own_is_told(tmp_path: Path) -> None:
     [
         ("g.cases.p", "no column p (did you mean P?)"),
         ("g.cases['P']", "read by its name"),
+        ("np.zeros(3)[g.cases.P[0]]", "a place is a whole number, as int("),
         ("2 * g.on", "no number: its"),
     ],
 )

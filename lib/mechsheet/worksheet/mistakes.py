@@ -263,7 +263,7 @@ _HINTS = {
     r"'NoneType'": "a function without return gives None",
     r"truth value of an array": "of many values each is chosen by np.where(condition, this, that)",
     r"out of bounds for axis 0 with size 0": "no element is left there: none meets the condition",
-    r"^only integers, slices": "a column of a table is read by its name: g.bolts.x",
+    r"^only integers, slices": "a place is a whole number, as int(bolt.z); a column of a table is read by its name",
     r"cannot convert float (NaN|infinity) to integer": "what it is made of is none, as the root of a negative one",
     r"^StopIteration$": "next has found nothing for which its condition holds",
     r"unhashable type": "an array, a list or a table can be no key, and no member of a set",
