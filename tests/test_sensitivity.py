@@ -190,8 +190,28 @@ def test_differences_tell_a_corner_from_a_slope(tmp_path):
 y = float(f"{g.F:.17g}")
 w = max(y - 2.5, 0) + y**2 + 3 * g.a  # [-] with a corner"""
     found = sensitivity(own(tmp_path, lines).path, ["w"])
-    assert np.isnan(found.slopes["w"][0]) and found.reasons == {"F": "w has a corner there", "a": ""}
+    assert np.isnan(found.slopes["w"][0]) and found.reasons == {"F": "w has a corner or a jump there", "a": ""}
     assert found.slopes["w"][1] == pytest.approx(3.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("at", "slope"), [(2.501, 0.0), (2.55, 0.0), (2.5001, np.nan)])
+def test_a_jump_beside_is_no_slope(tmp_path, at, slope):
+    """Of a size from a table, or of what is counted, differences had one of the wide steps, true to 1e-13 at times."""
+    lines = f'v = float(f"{{g.F:.17g}}")\nd = (1.0 if v < {at} else 3.0) + g.a  # [-] size'
+    found = sensitivity(own(tmp_path, lines).path, ["d"])
+    assert found.differences and found.slopes["d"][1] == pytest.approx(1.0)
+    np.testing.assert_equal(found.slopes["d"][0], slope)
+    assert bool(found.reasons["F"]) is bool(np.isnan(slope))
+
+
+def test_what_keeps_still_beside_a_place_without_a_slope_is_no_searched_one(tmp_path):
+    """A share of places on a grid, one of them the origin, was differentiated by steps that jump, by all inputs."""
+    lines = """
+x, y = np.meshgrid(np.linspace(-1, 1, 15) * g.F, np.linspace(0, 1, 15))
+hit = (np.abs(np.hypot(x, y) - 1.1 * g.a) < 0.5) & (np.abs(np.arctan2(y, x) - 1.5) < 1.2)
+k = hit.mean()  # [-] share"""
+    found = sensitivity(own(tmp_path, lines).path, ["k"])
+    assert not found.differences and found.slopes["k"][1] == 0 and "jumps there" in found.reasons["F"]
 
 
 def test_of_a_result_that_is_nothing_the_inputs_have_an_order_too(tmp_path):

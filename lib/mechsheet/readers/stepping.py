@@ -40,4 +40,4 @@ def stepping(found: Mapping[Node, Slope], by: Sequence[Node]) -> dict[Node, int]
 def _is_stepping(slope: Values, ahead: Values, behind: Values, rounding: float) -> bool:
     middle = (ahead + behind) / 2
     smooth = np.abs(ahead - behind) <= _BENT * np.abs(middle)
-    return bool(np.any(smooth & ~(np.abs(middle - slope) <= _OTHER * np.abs(middle) + rounding)))
+    return bool(np.any(smooth & (np.abs(middle - slope) > _OTHER * np.abs(middle) + rounding)))  # of none nobody knows

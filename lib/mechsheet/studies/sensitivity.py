@@ -252,12 +252,17 @@ def sensitivity(
         taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
         widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
         quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
-        found[name], errors[name] = _extrapolated(quotients, widths, float(np.max(np.abs(values[name]))))
-        bent = _has_corner(2 * (moved[:, 0] + moved[:, 1] - 2 * values[name]) / widths, found[name])
-        found[name], errors[name] = (np.where(bent, np.nan, x) for x in (found[name], errors[name]))
+        size = float(np.max(np.abs(values[name])))
+        found[name], errors[name] = _extrapolated(quotients, widths, size)
+        rounding = _ROUNDING * size / np.abs(widths[:, -1])
+        bent = _has_corner(2 * (moved[:, 0] + moved[:, 1] - 2 * values[name]) / widths, found[name], rounding)
+        still = np.all(moved[:, :, -1] == values[name], axis=1)  # nearby, whatever jumps farther off
+        found[name], errors[name] = (
+            np.where(bent, np.nan, np.where(still, 0.0, x)) for x in (found[name], errors[name])
+        )
         for i, x in enumerate(chosen):
             if np.isnan(found[name][i]).any():
-                cause = f"{name} has a corner there" if bent[i].any() else "the result itself has no value"
+                cause = f"{name} has a corner or a jump there" if bent[i].any() else "the result itself has no value"
                 lost[x] = next((reason for reason in reasons[i][::-1] if reason), cause)
     return Sensitivity(
         names,
@@ -342,12 +347,15 @@ def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, 
     return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
 
 
-def _has_corner(bends: Array, slopes: Array) -> NDArray[np.bool_]:
-    """Whether slopes on either side differ by as much at the smallest steps; of what only bends by half at each."""
+def _has_corner(bends: Array, slopes: Array, rounding: Array) -> NDArray[np.bool_]:
+    """Whether slopes on either side differ by as much at the smallest steps, or by twice that at each as at a jump.
+
+    Of what only bends they do by half.
+    """
     with np.errstate(all="ignore"):
         ratios = bends[:, -2:] / bends[:, -3:-1]
-        corner: NDArray[np.bool_] = np.all((ratios > 0.75) & (ratios < 1 / 0.75), axis=1)
-        return corner & (np.abs(bends[:, -1]) > _CORNER * np.abs(slopes))
+        corner: NDArray[np.bool_] = np.all((ratios > 0.75) & (ratios < 2 / 0.75), axis=1)
+        return corner & (np.abs(bends[:, -1]) > _CORNER * np.abs(slopes) + 4 * rounding)
 
 
 def by_name(worksheet: str | Path, given: Mapping[str, Any]) -> dict[str, Any]:
