@@ -14,7 +14,7 @@ from mechsheet.quantities.node import Block
 from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.gradients import gradient
-from mechsheet.readers.slope_rules import RULES, SMOOTH
+from mechsheet.readers.slope_rules import RULES, SMOOTH, Motion, reduced
 from mechsheet.readers.slopes import Slope, jacobian, slopes, unfollowed
 from tests.own_worksheet import own, recorded
 
@@ -188,3 +188,10 @@ def test_a_slope_that_is_infinite_on_either_side_is_none(tmp_path: Path) -> None
     _, recording = recorded(own(tmp_path, "y = sqrt(abs(g.F))  # [-] result"), F=0.0)
     node, by = recording.values["y"].re, recording.inputs["F"]
     assert np.isnan(slopes([node], [by])[node].both).all()
+
+
+def test_a_place_that_is_not_known_moves_as_nobody_knows() -> None:
+    """Of the greatest of numbers that are not followed all slopes ended in an error."""
+    motion = Motion(np.array([[1.0, 2.0], [0.0, 0.0]]), np.array([[True, True], [False, False]]))
+    moved = reduced("argmax", np.array([1.0, 2.0]), np.nan, motion)
+    np.testing.assert_equal(moved.ahead, [np.nan, 0.0])
