@@ -212,6 +212,8 @@ CONSTRUCTS = [
     "try:\n    k = [3.0, 4.0, 5.0][round(g.F / 6) + 2]\nexcept IndexError:\n    k = 7.0\ny = k * g.a",
     "try:\n    k = sqrt(0.5 - g.a)\nexcept ValueError:\n    k = 7.0\ny = k * g.F",
     "try:\n    k = min(1 / (g.k - 3), 99.0)\nexcept ZeroDivisionError:\n    k = 7.0\ny = k * g.a",
+    "f = np.frompyfunc(lambda v: v * g.a, 1, 1)\ny = f(x).astype(float)",
+    "def make(c):\n    return np.frompyfunc(lambda v: v * c, 1, 1)\ny = make(g.a)(x).astype(float)",
     "try:\n    k = find(lambda t: t * g.a, 0, 1, equals=g.F - 2).value\nexcept Exception:\n    k = 7.0\ny = k * g.a",
     "try:\n    t = find(lambda t: t * g.a, 0, 1, equals=g.F - 2)\n    y = t.value\nexcept Exception:\n    y = 7.0",
     "try:\n    k = 1 / (1 / (g.k - 3) + g.F)\nexcept ZeroDivisionError:\n    k = 7.0\ny = k * g.a",

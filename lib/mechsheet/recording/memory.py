@@ -132,6 +132,8 @@ def _reached(
             continue
         seen = beneath if hidden else held
         if isinstance(value, _LEAVES) or id(value) in seen:
+            if isinstance(value, np.ufunc):  # of numpy's frompyfunc
+                waiting += _to_look_at(filter(callable, gc.get_referents(value)), hidden)
             continue
         if _foreign(value, own):
             waiting += _to_look_at(_kept(value, own), hidden=True)
