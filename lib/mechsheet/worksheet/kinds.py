@@ -175,8 +175,8 @@ class Chosen:
     """One of several named options: equal to its name and used as that text is, with its properties as attributes.
 
     >>> shear = Chosen(("single", "double"), 1, {"planes": 2})
-    >>> shear == "double", f"{shear} shear", "in " + shear, shear.upper(), shear.planes
-    (True, 'double shear', 'in double', 'DOUBLE', 2)
+    >>> shear == "double", f"{shear} shear", "in " + shear, shear.upper(), shear[:2], shear.planes
+    (True, 'double shear', 'in double', 'DOUBLE', 'do', 2)
     """
 
     def __init__(self, options: tuple[str, ...], at: Any, properties: Mapping[str, Any]) -> None:
@@ -208,6 +208,12 @@ class Chosen:
 
     def __repr__(self) -> str:
         return repr(str(self))
+
+    def __getitem__(self, key: Any) -> str:
+        return str(self)[key]
+
+    def __contains__(self, part: object) -> bool:
+        return str(part) in str(self)
 
     def __add__(self, other: object) -> Any:
         return str(self) + str(other) if isinstance(other, str | Chosen) else NotImplemented
