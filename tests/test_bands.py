@@ -105,11 +105,12 @@ def off(tmp_path: Path, limit: float, F: str = "± 1", a: str = "± 0.5", more: 
 
 
 def test_worst_case_root_of_squares_and_what_is_not_followed(tmp_path):
-    found, _ = bands(off(tmp_path, 9, more=TEXT))
+    found, _ = bands(off(tmp_path, 9, more=f"{TEXT}\ns = g.a  # [-] the same\nP = 1 + 1j * g.F  # [-] point"))
     by_name = {b.name: b for b in found.banded}
     assert (by_name["y"].worst.tolist(), by_name["y"].squares.tolist()) == ([2.5], [4.25**0.5])
     assert by_name["w"].worst.tolist() == [1.0], "the steeper side"
     assert "line 42" in by_name["z"].cells()[-1]
+    assert (by_name["s"].worst.tolist(), by_name["P.imag"].worst.tolist()) == ([0.5], [1.0]), "an input by another name"
     table = next(b for b in found.banded if b.where == "table 1")
     assert np.allclose(table.worst, np.linspace(0.1, 2, 5))
     assert re.search(r"table 1 +x .*± 2 .*in row 5", "\n".join(found.lines()))
@@ -390,19 +391,22 @@ check_2 = check("least", e, 0.5)
 check_3 = check("greatest", 0.9 / np.cos(g.F - 2.5), 1)
 check_4 = check("size", 3 * s, 10)
 check_5 = check("there", z, 1)
-check_6 = check("far", e, 1.1)"""
+check_6 = check("far", e, 1.1)
+t = cos(2 * np.pi * g.F)  # [-] the same at both ends
+check_7 = check("turning", np.angle(exp(1j * 1.2 * g.F)), at_least=-2.6)"""
 
 
 def test_what_slopes_mislead_about_is_told_by_cases(tmp_path):
     """At its least a number moves by no slope at all, and still by the tolerance."""
     found, _ = bands(off(tmp_path, 9, "± 1", "± 0.5", AT_ITS_LEAST))
-    share = {"least": 0.71, "greatest": 0.45, "size": 0.2, "there": 0.5}
+    share = {"least": 0.71, "greatest": 0.45, "size": 0.2, "there": 0.5, "turning": 0.77}
     for name, part in share.items():
-        told = re.fullmatch(r"in (\S+) % of cases, fails at worst \(it bends\)", found.sure[name])
+        told = re.fullmatch(r"in (\S+) % of cases, fails at worst \(.*(bends|by F)\)", found.sure[name])
         assert told and float(told[1]) / 100 == pytest.approx(part, abs=0.06), name
     assert found.sure["far"] == "in all the tolerances"
     by_name = {b.name: b.cells() for b in found.banded}
     assert re.match(r"it bends: \S+\.\.1 in 1000 random cases", by_name["e"][-1])
+    assert re.match(r"it bends: -1\.\.\S+ in 1000 random cases", by_name["t"][-1])
     assert by_name["s"][-1].startswith("it bends: 2..5 in") and by_name["z"][-1] == "it ends within the tolerances"
 
 
@@ -589,6 +593,8 @@ def test_the_page_writes_bands_as_the_numbers_that_they_stand_behind():
     assert told(np.radians(1.7)) == "± 1.7°"
     assert told(np.radians(0.2), np.radians(2e-5)) == "± up to 0.2°"
     assert told(np.radians(2e-9)) == "± 2·10⁻⁹°"
+    imaginary = Banded("results", "P.imag", "mm", np.ones(1), Band(np.array([[2e-3]]), np.array([[1e-3]])))
+    assert study._of_line([imaginary]) == "± (0, 2) mm", "not as if both parts moved"
 
 
 def test_a_page_whose_file_is_another_one_by_now_asks_nothing_of_it(tmp_path, monkeypatch):

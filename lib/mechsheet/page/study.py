@@ -218,6 +218,8 @@ def _of_line(parts: Sequence[Banded]) -> str:
     if why := next((part.band.why for part in parts if part.band.why), ""):
         return f"± not known: {why}"
     most = [off(part.most) for part in parts]
+    if len(most) == 1 and (part := parts[0].name.split(".")[1:]):  # of a point whose other part keeps still
+        most.insert(int(part == ["real"]), off(0.0))
     among = "up to " if parts[0].values.size > 1 else ""
     told = f"± {among}{most[0] if len(most) == 1 else '(' + ', '.join(most) + ')'}{numbers.suffix(parts[0].unit)}"
     return numbers.on_page(told)

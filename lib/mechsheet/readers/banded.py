@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.quantities.lines import Recording
-from mechsheet.quantities.node import LEAVES, Node
+from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.readers.bands import BENDS, Band, Bands, Tolerance
@@ -159,7 +159,7 @@ def _of_lines(recording: Recording, known: Mapping[str, Formula], listed: set[st
             continue
         ends = ("real", "imag") if value.im is not None else ("",)
         for node, part in zip(value.whole().parts, ends, strict=True):
-            may_move = node.op not in LEAVES or (node.op == "constant" and recording.looked.get(name))
+            may_move = node.op != "constant" or recording.looked.get(name)
             if may_move and node.value.dtype.kind in "if" and node.size:
                 values, column = (
                     node.value / units.parse(line.unit).factor,

@@ -29,7 +29,8 @@ from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
 from mechsheet.worksheet.kinds import Input
 
 _CASES = 20_000  # random ones by which a check is judged
-_CORNERS = 8  # at so many ends of all tolerances, and opposite to these, it is looked whether slopes mislead
+_PLACES = 16  # within the tolerances at which it is looked whether slopes mislead: all ends of few, some of many
+_INSIDE = 4  # of them between the ends: what turns may be at all of these what it is now
 _LITTLE = 0.05  # of how far a check moves: what bends by less hardly changes in how many cases it holds
 _CRITICAL = 100  # elements of a check that are judged at a time
 BENDS, ENDS = "it bends", "it ends within the tolerances"  # what slopes do not tell
@@ -174,13 +175,13 @@ class Bands:
         return f"line {jump.line} goes another way by {', '.join(self.by[k].field.name for k in jump.by)}"
 
     def look(self, nodes: Iterable[Node]) -> None:
-        """What quantities are at some ends of the tolerances; best of all at once, for they share what they rest on."""
+        """What quantities are at some places within the tolerances; best of all at once, which share what is below."""
         new = [node for node in dict.fromkeys(nodes) if node not in self.there[0]]
         for place, there in zip(self.places, self.there, strict=True):
             there |= self._there(new, place)
 
     def _there(self, nodes: Sequence[Node], place: Values) -> dict[Node, Values]:
-        """What quantities are at an end of the tolerances."""
+        """What quantities are at a place within the tolerances."""
         at = {x: t.value + part * t.size for x, t, part in zip(self.inputs, self.by, place.tolist(), strict=True)}
         try:
             found = recomputed(nodes, at)
@@ -191,7 +192,7 @@ class Bands:
     def misled(self, node: Node, guards: Sequence[Node] = ()) -> str:
         """Why the slopes of a quantity with a band tell nothing of it, as where it is at its least; else nothing.
 
-        It is recorded under ``guards``, which may not hold at some end.
+        It is recorded under ``guards``, which may not hold at some place.
         """
         self.look([node, *guards])
         known, worst = np.isfinite(node.value), self.known[node].worst
@@ -231,7 +232,7 @@ class Bands:
         return self._by_reserves(reserves, passed)
 
     def _misleads(self, residual: Residual, reserves: Values, passed: bool) -> bool:
-        """Whether a check has another verdict at some end of the tolerances where slopes say that it has one in all.
+        """Whether a check has another verdict at some place where slopes say that it has one in all the tolerances.
 
         Where they say in how many cases it holds, whether its least reserve at an end is another one than by them.
         """
@@ -287,11 +288,14 @@ class Bands:
 
 
 def _places(count: int) -> Values:
-    """Ends of so many tolerances, in parts of them, a row for each place: all that there are, or random ones."""
-    if 2**count <= 2 * _CORNERS:
-        return np.array([*product((-1.0, 1.0), repeat=count)])
-    corners = np.random.default_rng(0).choice([-1.0, 1.0], (_CORNERS, count))
-    return np.unique(np.concatenate([corners, -corners]), axis=0)
+    """Places within so many tolerances, in parts of them, a row for each: all ends or random ones, some inside."""
+    rng = np.random.default_rng(0)
+    if 2**count <= _PLACES:
+        ends = np.array([*product((-1.0, 1.0), repeat=count)])
+    else:
+        corners = rng.choice([-1.0, 1.0], ((_PLACES - _INSIDE) // 2, count))
+        ends = np.unique(np.concatenate([corners, -corners]), axis=0)
+    return np.concatenate([ends, rng.uniform(-1.0, 1.0, (_INSIDE, count))])
 
 
 def _reserves(residual: Residual, there: Mapping[Node, Values]) -> Values:

@@ -135,6 +135,13 @@ def _mod(node: Node, moves: Sequence[Values]) -> bool:
     return bool(np.any(np.isfinite(turns) & ~(np.floor(turns - off) == np.floor(turns + off))))
 
 
+def _wraps(node: Node, moves: Sequence[Values]) -> bool:
+    """Whether an angle may pass from half a turn to minus half a turn."""
+    y, x = (part.value for part in node.operands)
+    p, q = (np.abs(m).sum(0) for m in _aligned(node, moves))
+    return bool(np.any((p > 0) & (np.abs(y) <= p) & (x < q)))
+
+
 def _first(node: Node, moves: Sequence[Values]) -> bool:
     """Whether the greatest or the least element may be another one."""
     (x,) = node.operands
@@ -155,5 +162,6 @@ _TURNS: dict[str, _Turns] = {
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
     **dict.fromkeys(("floor", "round", "sign"), _whole),
     "mod": _mod,
+    "atan2": _wraps,
     **dict.fromkeys(("argmax", "argmin"), _first),
 }
