@@ -192,6 +192,15 @@ w = max(y - 2.5, 0) + y**2 + 3 * g.a  # [-] with a corner"""
     found = sensitivity(own(tmp_path, lines).path, ["w"])
     assert np.isnan(found.slopes["w"][0]) and found.reasons == {"F": "w has a corner or a jump there", "a": ""}
     assert found.slopes["w"][1] == pytest.approx(3.0, rel=1e-9)
+    for jump in ("y > 2.5", "(y > 2.5) + (y >= 2.5)", "y != 2.5"):
+        lines = f'\ny = float(f"{{g.F:.17g}}")\nw = 1.0 * ({jump}) + y  # [-] jumps'
+        found = sensitivity(own(tmp_path, lines).path, ["w"])
+        assert np.isnan(found.slopes["w"][0]) and found.reasons["F"] == "w jumps there, or ends", jump
+
+
+def test_an_angle_that_wraps_there_has_no_slope(tmp_path):
+    found = sensitivity(own(tmp_path, "\nt = np.angle(-g.a + 1j * (g.F - 2.5))  # [rad] half a turn").path, ["t"])
+    assert np.isnan(found.slopes["t"][0]) and found.reasons == {"F": "t jumps there, or ends", "a": ""}
 
 
 @pytest.mark.parametrize(("at", "slope"), [(2.501, 0.0), (2.55, 0.0), (2.5001, np.nan)])

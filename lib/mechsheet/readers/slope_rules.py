@@ -149,6 +149,13 @@ def _step(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Mo
     return Motion(np.where(lost, np.nan, 0.0), m.moves & lost)
 
 
+def _angle(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
+    """Of a direction; at half a turn it jumps to minus half a turn where that turns on."""
+    motion = smooth(node, y, values, operands)
+    jumps = (values[0] == 0) & (values[1] < 0) & operands[0].moves & ~(operands[0].ahead * y > 0)
+    return Motion(np.where(jumps, np.nan, motion.ahead), motion.moves)
+
+
 def _mod(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
     a, b = values
     motion = _sum((1.0, -np.round((a - y) / b)), operands)
@@ -248,6 +255,7 @@ def _unknown(node: Node, y: Values, values: Sequence[Values], operands: Sequence
 Rule = Callable[[Node, Values, Sequence[Values], Sequence[Motion]], Motion]
 RULES: dict[str, Rule] = {
     "sqrt": _sqrt, "pow": _pow, "abs": _abs, "max": _extreme, "min": _extreme, "where": _where, "mod": _mod,
+    "atan2": _angle,
     "floor": _step, "round": _step, "sign": _step, "like": _same, "sized": _same, "finite": _finite,
     **dict.fromkeys(("lt", "le", "gt", "ge", "eq", "ne"), _compared),
     **dict.fromkeys(("and", "or", "not"), _logical),

@@ -252,17 +252,21 @@ def sensitivity(
         taken = [variants[x][1:].reshape(len(chosen), 2, len(steps))[i] for i, x in enumerate(chosen)]
         widths = np.reshape([t[0] - t[1] for t in taken], (len(chosen), len(steps), *[1] * values[name].ndim))
         quotients = (moved[:, 0] - moved[:, 1]) / widths  # the steps as they are after rounding
-        size = float(np.max(np.abs(values[name])))
+        size = float(np.max(np.abs(values[name]), initial=0.0))
         found[name], errors[name] = _extrapolated(quotients, widths, size)
-        rounding = _ROUNDING * size / np.abs(widths[:, -1])
-        bent = _has_corner(2 * (moved[:, 0] + moved[:, 1] - 2 * values[name]) / widths, found[name], rounding)
+        bends = 2 * (moved[:, 0] + moved[:, 1] - 2 * values[name]) / widths
+        rounding = 4 * _ROUNDING * size / np.abs(widths[:, -1])
+        least = rounding + _CORNER * np.abs(found[name])
+        jumps = _lasts(bends, least, 1.25) | _lasts(quotients, rounding, 1.25)
+        bent = _lasts(bends, least, 0.75) | jumps
         still = np.all(moved[:, :, -1] == values[name], axis=1)  # nearby, whatever jumps farther off
         found[name], errors[name] = (
             np.where(bent, np.nan, np.where(still, 0.0, x)) for x in (found[name], errors[name])
         )
         for i, x in enumerate(chosen):
             if np.isnan(found[name][i]).any():
-                cause = f"{name} has a corner or a jump there" if bent[i].any() else "the result itself has no value"
+                corner = f"{name} {'jumps there, or ends' if jumps[i].any() else 'has a corner there'}"
+                cause = corner if bent[i].any() else "the result itself has no value"
                 lost[x] = next((reason for reason in reasons[i][::-1] if reason), cause)
     return Sensitivity(
         names,
@@ -347,15 +351,15 @@ def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, 
     return best, np.where(flat, 0.0, np.where(np.isnan(best), np.nan, error))
 
 
-def _has_corner(bends: Array, slopes: Array, rounding: Array) -> NDArray[np.bool_]:
-    """Whether slopes on either side differ by as much at the smallest steps, or by twice that at each as at a jump.
+def _lasts(steps: Array, least: Array, part: float) -> NDArray[np.bool_]:
+    """Whether what is found at each of the smallest steps is more than a part of that at the one before.
 
-    Of what only bends they do by half.
+    Of differences of the slopes on either side: of what only bends they are half, of a corner the same, and of a jump
+    twice those before, which slopes over it are too.
     """
     with np.errstate(all="ignore"):
-        ratios = bends[:, -2:] / bends[:, -3:-1]
-        corner: NDArray[np.bool_] = np.all((ratios > 0.75) & (ratios < 2 / 0.75), axis=1)
-        return corner & (np.abs(bends[:, -1]) > _CORNER * np.abs(slopes) + 4 * rounding)
+        lasts: NDArray[np.bool_] = np.all(steps[:, -2:] / steps[:, -3:-1] > part, axis=1)
+    return lasts & (np.abs(steps[:, -1]) > least)
 
 
 def by_name(worksheet: str | Path, given: Mapping[str, Any]) -> dict[str, Any]:
