@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mechsheet.page.values import html
-from mechsheet.worksheet.check import Check, assembled, check, check_slope, require, summary
+from mechsheet.worksheet.check import Check, assembled, check, check_slope, closed_form, require, summary
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.verdict import listen
@@ -223,6 +223,29 @@ def test_limits_of_an_assembly_are_two():
 def test_what_a_check_cannot_take_is_named(given, told):
     with pytest.raises(SheetError, match=re.escape(told)):
         check(*given)
+
+
+FOUND = find(lambda x: x - 1, 0.0, 2.0)
+SOLUTION = find(lambda x, y: (x - 1, y - 1), x=0.0, y=0.0)
+OTHERS = [
+    (lambda: check("a", [[1.0], [1.0, 2.0]], 1.0), "check a: its residual must be numbers, not [[1.0], [1.0, 2.0]]"),
+    (lambda: Check("a", np.array([1.0, 3.0]), 2.0), "check a: its residual must be one number, not [1. 3.]"),
+    (lambda: Check("a", 1.0, None), "check a: its limit must be one number, not None"),
+    (lambda: Check("a", 1.0, 2.0, "m").shown_in("N"), "check a: N does not measure m"),
+    (lambda: check_slope("a", 1.0, "x", 0.5, 0, 1), "check_slope takes a function of what is unknown"),
+    (lambda: check_slope("a", 1.0, np.sin, "x", 0, 1), "x = 'x' for check a must be real numbers"),
+    (lambda: check_slope("a", np.ones(2), np.sin, np.ones(3), 0, 1), "shapes do not broadcast: slope (2,), x (3,)"),
+    (lambda: closed_form(3, 1.0), "closed_form compares what find has found with a value, not 3"),
+    (lambda: closed_form(FOUND, x=1.0), "closed form of unknown x: give it behind what is found, without a name"),
+    (lambda: closed_form(FOUND, "1"), "closed form = '1' for unknown x must be real numbers"),
+    (lambda: closed_form(SOLUTION, 1.0), "closed form of x, y: give each that has one by its name, as x=.."),
+]
+
+
+@pytest.mark.parametrize(("call", "told"), OTHERS)
+def test_what_other_checks_cannot_take_is_named(call, told):
+    with pytest.raises(SheetError, match=re.escape(told)):
+        call()
 
 
 def test_what_is_masked_has_not_been_checked():

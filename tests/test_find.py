@@ -742,13 +742,30 @@ def test_what_is_masked_is_not_solved():
     assert both.value.x.tolist() == pytest.approx([2, np.nan, 8], nan_ok=True)
 
 
-@pytest.mark.parametrize(("given", "shown"), [(1j, "1j"), (np.array([2 + 1j]), "[2.+1.j]"), ("a", "'a'")])
+@pytest.mark.parametrize(
+    ("given", "shown"), [(1j, "1j"), (np.array([2 + 1j]), "[2.+1.j]"), ("a", "'a'"), ("1", "'1'"), (None, "None")]
+)
 def test_what_is_no_real_number_is_named(given, shown):
     words = re.escape(shown)
     with pytest.raises(SheetError, match=f"^equals = {words} for rod must be real numbers$"):  # its real part, before
         find(lambda x: x**2, 0.0, 10.0, equals=given, unknown="rod")
     with pytest.raises(SheetError, match=f"^x = {words} must be real numbers$"):
         find(lambda x, y: (x + y - 1, x - y), x=given, y=1.0)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"lo": [0.0, 1.0], "hi": [3.0, 3.0, 3.0]}, "shapes do not broadcast: lo (2,), hi (3,)"),
+        ({"lo": 0.0, "hi": 3.0, "unit": None}, "a unit must be a text between quotes, such as 'mm', not None"),
+    ],
+)
+def test_what_a_find_cannot_take_is_named(given, told):
+    with pytest.raises(SheetError, match=re.escape(told)):
+        find(lambda x: x**2 - 2, **given)
+    more = {"x": given["lo"], "y": given["hi"], "unit": given.get("unit", "-")}
+    with pytest.raises(SheetError, match=re.escape(told.replace("lo", "x").replace("hi", "y"))):
+        find(lambda x, y: (x - 1, y - 2), **more)
 
 
 def test_of_no_problems_nothing_is_found_wherever_they_come_from():

@@ -16,6 +16,7 @@ from mechsheet.readers.proof import Proof
 from mechsheet.readers.slopes import slopes, unfollowed
 from mechsheet.recording.record import record
 from mechsheet.run.proving import proof_of
+from mechsheet.worksheet.system import minerr
 
 LINES = """
 from mechsheet import minerr
@@ -95,3 +96,11 @@ y = y_least.value.k  # [-] fitted"""
     assert exists or "no least sum of squares is proved there" in column.why
     known = unfollowed([recording.values["y"].whole().re], [recording.inputs["F"]]) is None
     assert known == ("sum" not in equations)
+
+
+def test_of_what_has_no_number_at_the_guess_there_is_no_value() -> None:
+    """It was the guess."""
+    none = minerr(lambda x: (x - 1, np.sqrt(x - 5)), x=1.0)
+    assert not none.valued and none.reason == "no solution for x from the guess: equation 2 has no number there"
+    some = minerr(lambda x, k: (x - k, np.where(k > 2.5, x, np.nan)), x=np.array([1.0, 2.0]), k=np.array([2.0, 4.0]))
+    assert some.valued.tolist() == [False, True]

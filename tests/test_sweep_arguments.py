@@ -1,16 +1,20 @@
 """What a sweep is given: parts of results as any other study takes them, and in a line what is of another kind."""
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from by_cells import by_cells
 
+from mechsheet.recording.evaluation import evaluate
+from mechsheet.studies.sensitivity import sensitivity
 from mechsheet.studies.sweep import grid, sweep
+from mechsheet.studies.tolerance import tolerance
 from mechsheet.worksheet.errors import SheetError
 from tests.own_worksheet import own
 
-HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
+HITCH, GUIDE = (Path(__file__).parents[1] / "worksheets" / f"{name}.py" for name in ("hitch", "guide"))
 
 
 @pytest.mark.parametrize(
@@ -21,6 +25,8 @@ HITCH = Path(__file__).parents[1] / "worksheets" / "hitch.py"
         ({"want": 5}, "want = 5 must be a list of names"),
         ({"want": ["GS6", 5]}, r"want = \['GS6', 5\] must be a list of names"),
         ({"want": None}, "want = None must be a list of names"),
+        ({"want": []}, r"want = \[\] must be a list of names"),
+        ({"variants": {}}, "variants name no input that varies: evaluate computes"),
         ({"variants": [1, 2]}, r"variants = \[1, 2\] must be a mapping of inputs to their values, or a DataFrame"),
         ({"variants": None}, "variants = None must be a mapping"),
         ({"variants": {"P6": [[1], [1, 2]]}}, r"P6 = \[\[1\], \[1, 2\]\] N is no array of numbers"),
@@ -66,6 +72,46 @@ def test_a_grid_has_every_value_of_each_input_in_its_order(values):
     for name, k in (("first", 0), ("third", 2)):
         along = np.moveaxis(np.broadcast_to(axes[name], shape), k, 0)
         assert along.reshape(len(along), -1)[:, 0].tolist() == np.atleast_1d(values).tolist()
+
+
+BAND = {"tolerances": {"F": 1.0}, "method": "monte carlo", "seed": 1, "count": 2}
+STUDIES = [
+    (lambda: sensitivity(GUIDE, []), "want = [] must be a list of names"),
+    (lambda: sensitivity(GUIDE, ["M_work"], inputs="F"), "inputs = 'F' must be a list of names, such as ['r']"),
+    (lambda: sensitivity(GUIDE, ["M_work"], inputs=[]), "inputs = [] must be a list of names"),
+    (lambda: tolerance(GUIDE, ["M_work"], ["F"]), "tolerances = ['F'] must be a mapping of inputs to numbers"),
+    (lambda: tolerance(GUIDE, ["M_work"], **BAND | {"seed": 1.5}), "a whole number such as seed=1, not 1.5"),
+    (
+        lambda: tolerance(GUIDE, ["M_work"], **BAND | {"count": "9"}),
+        "count = '9' variants must be at least 2 and whole",
+    ),
+    (lambda: tolerance(GUIDE, ["M_work"], **BAND | {"percentiles": 5}), "percentiles = 5 must be a list of numbers"),
+    (lambda: tolerance(GUIDE, ["M_work"], **BAND | {"percentiles": ["5"]}), "percentile '5' must be 0..100"),
+    (lambda: tolerance(GUIDE, ["M_work"], {"F": 1.0})["M"], "'M' is no result of this tolerance: it has M_work"),
+    (lambda: evaluate(GUIDE, ["H"], g=9.81), "g = 9.81 must be all inputs"),
+    (lambda: evaluate(GUIDE, ["H"], r=1j), "r = 1j mm is no number"),
+    (lambda: grid(P6={1, 2}), "P6 of a grid = {1, 2} must be a list of values"),
+]
+
+
+@pytest.mark.parametrize(("call", "message"), STUDIES)
+def test_what_a_study_cannot_take_is_named(call, message):
+    with pytest.raises(SheetError, match=re.escape(message)):
+        call()
+
+
+def test_a_position_is_a_number_or_an_end():
+    """Of another kind it was that of the greatest result."""
+    found = sensitivity(GUIDE, ["M"], ["F", "r"])
+    assert found.position("M", np.int64(3)) == found.position("M", 3) == 3
+    for at in ("most", 1.5, -1):
+        with pytest.raises(SheetError, match=rf"position '?{at}'? of M must be 0..12, 'least' or 'greatest'"):
+            found.table("1", "M", "M", at)
+    for unknown in (lambda: found.relative("Q"), lambda: found.unit("Q", "F"), lambda: found.tornado("1", "", "Q")):
+        with pytest.raises(SheetError, match="'Q' is no result of this sensitivity: it has M"):
+            unknown()
+    with pytest.raises(SheetError, match="'q' is no input of this sensitivity: it has F, r"):
+        found.unit("M", "q")
 
 
 def test_a_grid_of_a_matrix_is_refused():

@@ -9,6 +9,7 @@ import numpy as np
 
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, asked, base, load, value
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.no_inputs import NoInputs, beforehand
 from mechsheet.worksheet.verdict import values_only
 
@@ -29,7 +30,10 @@ def evaluate(worksheet: str | Path, want: Iterable[str], **given: Any) -> dict[s
     Raises SheetError for an unknown name, an input outside its limits, or where no solution exists.
     """
     sheet, names = load(worksheet), asked(want)
-    g = given.pop("g") if _is_whole(sheet, given) else inputs.build(sheet.inputs, given)
+    whole = _is_whole(sheet, given)
+    if whole and not hasattr(type(given["g"]), "__inputs__"):
+        raise SheetError(f"g = {as_given(given['g'])} must be all inputs, as load(worksheet).inputs(..) makes them")
+    g = given.pop("g") if whole else inputs.build(sheet.inputs, given)
     if not getattr(type(g), "__inputs__", ()):
         return by_cells(sheet, names, g)
     key, ways = (sheet.path, names), ways_of(g)

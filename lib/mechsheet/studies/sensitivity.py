@@ -18,11 +18,11 @@ from mechsheet.readers.stepping import stepping
 from mechsheet.recording.record import record
 from mechsheet.run.banding import part_of
 from mechsheet.run.silent import silently
-from mechsheet.studies.sweep import Sweep, sweep
+from mechsheet.studies.sweep import Sweep, known, sweep
 from mechsheet.worksheet import inputs as declarations
 from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import asked, base, load, value
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
@@ -35,6 +35,7 @@ _HALVINGS = 7  # steps down to 2**-12 of the size
 _ROUNDING = 32 * np.finfo(float).eps  # of a field's largest value: what the roundings of a worksheet make of it
 _CORNER = 1e-3  # of a slope: by more those on either side differ at a corner
 _BARS = 12
+_RESULT = "result of this sensitivity"
 _DRAWS = 4  # of inputs changed by one rounding
 
 
@@ -73,23 +74,26 @@ class Sensitivity:
 
     def relative(self, name: str) -> Array:
         """Elasticities d ln result / d ln input: by how many percent the result changes for one of the input."""
-        at = np.array(list(self.inputs.values()))
+        at, slopes = np.array(list(self.inputs.values())), known(name, self.slopes, _RESULT)
         with np.errstate(all="ignore"):  # a result of zero has none
-            relative: Array = self.slopes[name] * at.reshape(-1, *[1] * self.values[name].ndim) / self.values[name]
+            relative: Array = slopes * at.reshape(-1, *[1] * self.values[name].ndim) / self.values[name]
         return relative
 
     def unit(self, name: str, by: str) -> str:
         """Unit of a derivative, such as ``N/m``."""
-        over = self.input_units[by]
-        return self.units[name] if over == "-" else f"{_one(self.units[name])}/{_grouped(over)}"
+        over = known(by, self.input_units, "input of this sensitivity")
+        unit = known(name, self.units, _RESULT)
+        return unit if over == "-" else f"{_one(unit)}/{_grouped(over)}"
 
     def position(self, name: str, at: Position) -> int:
         """Number of a position, or of the one where the result is least or greatest."""
-        values = np.atleast_1d(self.values[name])
-        if isinstance(at, int):
-            if not 0 <= at < values.size:
-                raise SheetError(f"position {at} of {name} must be 0..{values.size - 1}")
-            return at
+        values = np.atleast_1d(known(name, self.values, _RESULT))
+        if at not in ("least", "greatest"):
+            if not isinstance(at, int | np.integer) or not 0 <= at < values.size:
+                raise SheetError(
+                    f"position {as_given(at)} of {name} must be 0..{values.size - 1}, 'least' or 'greatest'"
+                )
+            return int(at)
         return int(np.argmin(values) if at == "least" else np.argmax(values))
 
     def table(self, number: str, title: str, name: str, at: Position = "least") -> Table:
@@ -219,7 +223,8 @@ def sensitivity(
     """
     names, given = asked(want), by_name(worksheet, given)
     fields, at = point(worksheet, given)
-    chosen = [x for x, f in fields.items() if f.continuous] if inputs is None else list(dict.fromkeys(inputs))
+    every = [x for x, field in fields.items() if field.continuous]
+    chosen = every if inputs is None else asked(inputs, "inputs", next(iter(fields)))
     for x in chosen:
         continuous(fields, x, "cannot be differentiated by")
     exact, why = _of_recording(worksheet, names, chosen, given)

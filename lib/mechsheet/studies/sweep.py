@@ -12,7 +12,7 @@ from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,6 +31,7 @@ from mechsheet.worksheet.table import heading
 if TYPE_CHECKING:
     import pandas as pd
 
+T = TypeVar("T")
 _CHUNK = 2000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
 _RECORDINGS = 4  # variants that are recorded at most
 _PAYS = 100  # variants that take as long alone as a recording and its check, and more
@@ -75,9 +76,7 @@ class Sweep:
     _values: dict[str, NDArray[Any]]
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        if name not in self._values:
-            raise SheetError(f"{as_given(name)} is no result of this sweep: it has {', '.join(self.names)}")
-        return self._values[name]
+        return known(name, self._values, "result of this sweep")
 
     @property
     def solved(self) -> NDArray[np.bool_]:
@@ -123,6 +122,13 @@ class Sweep:
         return pd.DataFrame(columns)
 
 
+def known(name: str, every: Mapping[str, T], what: str) -> T:
+    """What a study knows of a result or of an input; SheetError naming those that it has where that is none."""
+    if name not in every:
+        raise SheetError(f"{as_given(name)} is no {what}: it has {', '.join(every)}")
+    return every[name]
+
+
 def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:
     """Variants of every combination of the given values, each input on an axis of its own, in the order given.
 
@@ -138,6 +144,8 @@ def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:
 
 def _along(name: str, values: Any) -> NDArray[Any]:
     """Values of an input along an axis; each list or table among them is one."""
+    if np.iterable(values) and (isinstance(values, Mapping) or not hasattr(values, "__getitem__")):
+        raise SheetError(f"{name} of a grid = {as_given(values)} must be a list of values")
     several = isinstance(values, list | tuple) and any(np.iterable(x) and not isinstance(x, str) for x in values)
     column: NDArray[Any] = inputs.each(values) if several else np.atleast_1d(values)
     if column.ndim > 1:
@@ -191,6 +199,8 @@ def sweep(
     sheet, want = load(path), asked(want)
     if not hasattr(variants, "items"):
         raise SheetError(f"variants = {as_given(variants)} must be a mapping of inputs to their values, or a DataFrame")
+    if not len(variants.keys()):
+        raise SheetError("variants name no input that varies: evaluate computes a worksheet as it stands")
     if not isinstance(chunk, int) or chunk < 1:
         raise SheetError(f"chunk = {as_given(chunk)} variants must be at least 1 and whole")
     if not (executor is None or callable(executor) or hasattr(executor, "submit")):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.studies.sensitivity import by_name, continuous, point, real, solved
-from mechsheet.studies.sweep import sweep
+from mechsheet.studies.sweep import known, sweep
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import asked, base
 from mechsheet.worksheet.deviation import SIGMAS
@@ -56,13 +56,13 @@ class Tolerance:
     reason: str
 
     def __getitem__(self, name: str) -> Band:
-        return self.bands[name]
+        return known(name, self.bands, "result of this tolerance")
 
     def table(self, number: str, title: str, *names: str) -> Table:
         """Bands of results, all of one shape, a row for each position."""
         columns: list[Column] = []
         for name in names or self.names:
-            band, unit = self.bands[name], self.units[name]
+            band, unit = self[name], self.units[name]
             parts = {"": band.nominal, "min": band.least, "max": band.greatest}
             if band.mean is not None and band.deviation is not None and band.percentiles is not None:
                 parts |= {"mean": band.mean, "sd": band.deviation}
@@ -127,6 +127,10 @@ def tolerance(
         declared = {x: field.tolerance for x, field in fields.items() if field.tolerance}
         tolerances, normal = {x: d.of(at[x]) for x, d in declared.items()}, [d.normal for d in declared.values()]
         distribution = "uniform"
+    if not isinstance(tolerances, Mapping):
+        raise SheetError(
+            f"tolerances = {as_given(tolerances)} must be a mapping of inputs to numbers, such as {{'P6': 1.0}}"
+        )
     if not tolerances:
         raise SheetError("no input has a tolerance")
     if distribution not in ("uniform", "normal"):
@@ -136,9 +140,11 @@ def tolerance(
         if not (isinstance(t, int | float | np.number) and np.isfinite(t) and t >= 0):
             told = f"{as_given(t)}{numbers.suffix(fields[x].unit)}"
             raise SheetError(f"tolerance of {fields[x].meaning} {x} = {told} must be a number >= 0")
+    if not np.iterable(percentiles):
+        raise SheetError(f"percentiles = {as_given(percentiles)} must be a list of numbers 0..100")
     for p in percentiles:
-        if not 0 <= p <= 100:
-            raise SheetError(f"percentile {p} must be 0..100")
+        if not (isinstance(p, int | float | np.number) and 0 <= p <= 100):
+            raise SheetError(f"percentile {as_given(p)} must be 0..100")
     spread = np.array(list(tolerances.values()))
     if method == "corners":
         if len(spread) > _CORNERS:
@@ -183,10 +189,10 @@ def _said(normal: Sequence[bool]) -> str:
 
 def _drawn(seed: int | None, count: int, normal: Sequence[bool]) -> Array:
     """Random parts of the tolerances, a row for each variant."""
-    if seed is None:
-        raise SheetError("monte carlo needs a seed, such as seed=1")
-    if count < 2:
-        raise SheetError(f"count = {count} variants must be at least 2")
+    if not isinstance(seed, int | np.integer) or seed < 0:
+        raise SheetError(f"monte carlo needs a seed, a whole number such as seed=1, not {as_given(seed)}")
+    if not isinstance(count, int | np.integer) or count < 2:
+        raise SheetError(f"count = {as_given(count)} variants must be at least 2 and whole")
     rng = np.random.default_rng(seed)
     columns = (rng.normal(0, 1 / SIGMAS, count) if bell else rng.uniform(-1, 1, count) for bell in normal)
     return np.stack(list(columns), 1)

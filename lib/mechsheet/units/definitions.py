@@ -105,7 +105,7 @@ def known(text: str) -> Unit | None:
     """Unit of a text; nothing where it is none, such as "open positions"."""
     try:
         factor, dims = _product(text)
-    except (Unreadable, KeyError):
+    except (Unreadable, KeyError, AttributeError):  # the last of what is no text
         return None
     return Unit(float(factor), dims)
 
@@ -113,6 +113,8 @@ def known(text: str) -> Unit | None:
 @lru_cache(maxsize=4096)
 def _unknown(text: str) -> str:
     """Why a text is no unit, and which ones are nearest."""
+    if not isinstance(text, str):
+        return f"a unit must be a text between quotes, such as 'mm', not {text!r}"
     try:
         strange = next(factor.name for factor in factors(text) if known(factor.name) is None)
     except Unreadable:

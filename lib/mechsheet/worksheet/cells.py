@@ -193,11 +193,11 @@ class Worksheet:
         raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
 
 
-def asked(want: Iterable[str]) -> tuple[str, ...]:
-    """Wanted names, each once; SheetError where they are something else, such as one name alone."""
+def asked(want: Iterable[str], what: str = "want", such: str = "GS6") -> tuple[str, ...]:
+    """Wanted names, each once; SheetError where they are something else, such as one name alone, or none."""
     names: list[object] = [want] if isinstance(want, str) or not isinstance(want, Iterable) else list(want)
-    if names == [want] or not all(isinstance(name, str) for name in names):
-        raise SheetError(f"want = {as_given(want)} must be a list of names, such as ['GS6']")
+    if not names or names == [want] or not all(isinstance(name, str) for name in names):
+        raise SheetError(f"{what} = {as_given(want)} must be a list of names, such as {[such]}")
     return tuple(dict.fromkeys(map(str, names)))
 
 

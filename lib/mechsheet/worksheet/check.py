@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from math import isnan
+from numbers import Real
 from typing import Any, overload
 
 import numpy as np
@@ -15,7 +16,8 @@ from mechsheet.mechanics.arguments import unmasked
 from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse, texts
+from mechsheet.worksheet.equations import common_shape, real_numbers
+from mechsheet.worksheet.errors import SheetError, as_given, function, measured, refuse, texts
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
@@ -43,6 +45,12 @@ class Check(Shown):
     essential: bool = False
     agreement: bool = False
     at_least: bool = False
+
+    def __post_init__(self) -> None:
+        texts(f"check {self.name}", name=self.name, unit=self.unit)
+        for what, x in (("residual", self.residual), ("limit", self.limit)):
+            if not isinstance(x, Real):
+                refuse(SheetError(f"check {self.name}: its {what} must be one number, not {as_given(x)}"))
 
     @property
     def passed(self) -> bool:
@@ -79,8 +87,10 @@ class Check(Shown):
         """The same check in another unit that measures the same; what is counted, in words, has its own alone."""
         if unit == self.unit:
             return self
-        own, other = units.parse(self.unit).factor, units.parse(unit).factor
-        residual, limit = (x * own / other for x in (self.residual, self.limit))
+        own, other = units.parse(self.unit), measured(unit, f"check {self.name}")
+        if own.dims != other.dims:
+            refuse(SheetError(f"check {self.name}: {unit} does not measure {numbers.in_text(self.unit)}"))
+        residual, limit = (x * own.factor / other.factor for x in (self.residual, self.limit))
         return replace(self, residual=residual, limit=limit, unit=unit)
 
     @property
@@ -232,7 +242,10 @@ def judged(
     """Check of a residual, of two computations of a quantity of that size; all in SI. Whether its limit ``tells``."""
     of = f"check {name if isinstance(name, str) else as_given(name)}"
     texts(of, name=name, unit=unit)
-    residuals = unmasked(residual)
+    try:
+        residuals = unmasked(residual)
+    except ValueError:  # rows that are not as long as each other
+        refuse(SheetError(f"{of}: its residual must be numbers, not {as_given(residual)}"))
     if residuals.dtype.kind == "b" or isinstance(limit, bool | np.bool_):
         told = "a condition, which is no number: give a quantity and its limit, or at_least="
         refuse(SheetError(f"{of}: its {'limit' if isinstance(limit, bool | np.bool_) else 'residual'} is {told}"))
@@ -275,12 +288,19 @@ def check_slope(
     ten times what the differences say of their own error, or what rounding of ``f`` makes of them; over a thousandth
     of the slope it would tell nothing.
     """
+    function(f, "check_slope")
+    of, slope = f"check {name}", unmasked(slope)
+    if slope.dtype.kind not in "iufc":
+        refuse(SheetError(f"{of}: its slope must be numbers, not {as_given(slope)}"))
+    x = np.atleast_1d(real_numbers(x, "x", of))
+    lo, hi = (float(real_numbers(end, which, of)) for end, which in ((lo, "lo"), (hi, "hi")))
     if not hi > lo or not np.size(x):
         return _state(Check(name, np.nan, 0.0, unit, "there is nothing to check: the range is empty"))
     if np.ndim(slope) > np.ndim(x):
         return _state(
             Check(name, np.nan, 0.0, unit, "several variants at once: the slope of each is checked in its own run")
         )
+    common_shape({"slope": slope, "x": x})
     if not takes_arrays(of_one(f), x[None, [0, -1]], ()):
         f = each_alone(f, ())
     ends = np.where(x == lo, 1, np.where(x == hi, -1, 0))
@@ -312,7 +332,15 @@ def closed_form(
     Raises SheetError naming an unknown that the block does not have.
     """
     if isinstance(found, Found):
-        return closed(found.words.unknown, found.words.unknown_unit, found.value, value, tolerance)
+        own = found.words.unknown
+        if values:
+            refuse(SheetError(f"closed form of {own}: give it behind what is found, without a name"))
+        return closed(own, found.words.unknown_unit, found.value, real_numbers(value, "closed form", own), tolerance)
+    if not isinstance(found, Solution):
+        refuse(SheetError(f"closed_form compares what find has found with a value, not {as_given(found)}"))
+    if not values:
+        first = found.words.names[0]
+        refuse(SheetError(f"closed form of {found.words.unknowns}: give each that has one by its name, as {first}=.."))
     units_of = dict(zip(found.words.names, found.words.units, strict=True))
     for name in values:
         if name not in units_of:

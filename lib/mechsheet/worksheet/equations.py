@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.mechanics.arguments import unmasked
+from mechsheet.mechanics.arguments import shape_error, unmasked
 from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
@@ -75,7 +75,7 @@ def asked(
     words = Words(names, _each(unknown_unit, len(names), "unknown_unit", "unknowns"))
     _match(f, names)
     places = {n: _place(n, value, u) for (n, value), u in zip(unknowns.items(), words.units, strict=True)}
-    shape = np.broadcast_shapes(*(p.first.shape for p in places.values()))
+    shape = common_shape({name: p.first for name, p in places.items()})
     interval = {name: (p.first[()], p.last[()]) for name, p in places.items()}
     parts = zip(*places.values(), strict=True)
     place = Place(*(np.stack([np.broadcast_to(a, shape) for a in part]) for part in parts))
@@ -152,17 +152,28 @@ def _targets(equals: Any, count: int) -> list[NDArray[Any]]:
     several = list(equals) if isinstance(equals, tuple | list) else [equals] * count
     if len(several) != count:
         raise SheetError(f"equals has {len(several)} values for {count} equations")
-    return [unmasked(v) for v in several]
+    targets = [unmasked(v) for v in several]
+    for target in targets:
+        if target.dtype.kind not in "fciub":
+            raise SheetError(f"equals = {as_given(equals)} must be numbers")
+    return targets
 
 
-def real_numbers(value: ArrayLike, name: str, of: str = "") -> Array:
-    """What is given as numbers, NaN where it is masked; SheetError that names it where it is none."""
+def real_numbers(value: ArrayLike | None, name: str, of: str = "") -> Array:
+    """What is given as numbers, NaN where it is masked; SheetError that names it where it is none, such as a text."""
     try:
-        if np.iscomplexobj(value):
+        if value is None or np.asarray(value).dtype.kind in "cSU":
             raise TypeError
         return unmasked(value, float)
     except (TypeError, ValueError):  # of numpy's: they do not say of what
         raise SheetError(f"{name} = {as_given(value)}{of and f' for {of}'} must be real numbers") from None
+
+
+def common_shape(given: Mapping[str, Array]) -> tuple[int, ...]:
+    """The shape of the problems that numbers by their names are of; SheetError where they do not broadcast."""
+    if len({x.shape for x in given.values() if x.ndim}) > 1 and (error := shape_error(given)):
+        raise SheetError(str(error))
+    return np.broadcast_shapes(*(x.shape for x in given.values()))
 
 
 def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
@@ -203,7 +214,7 @@ def longest_step(unit: str) -> float:
 
 
 def _each(unit: str | Sequence[str], count: int, what: str, of: str) -> tuple[str, ...]:
-    several = (unit,) * count if isinstance(unit, str) else tuple(unit)
+    several = (unit,) * count if isinstance(unit, str) or not isinstance(unit, Sequence) else tuple(unit)
     if len(several) != count:
         raise SheetError(f"{what} has {len(several)} units for {count} {of}")
     for each in several:

@@ -17,7 +17,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.equations import Start, real_numbers
+from mechsheet.worksheet.equations import Start, common_shape, real_numbers
 from mechsheet.worksheet.errors import SheetError, function, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
@@ -309,7 +309,7 @@ def sought(
     among = np.equal.outer(labels, on)
     if (branch is None) != (branches is None) or not among.any(0).all():
         raise ValueError(f"branch = {branch} of {words.unknown} must be one of {branches}")
-    given = _checked(words, lo=lo, hi=hi, equals=equals, guess=guess)
+    given = _checked(words, lo=lo, hi=hi, equals=real_numbers(equals, "equals", words.unknown), guess=guess)
     functions = [f] if branches is None else [_on_branch(f, s) for s in labels]
     wanted = f if branches is None else _on_branch(f, on[()])
 
@@ -390,7 +390,8 @@ def _nothing(words: _Words, branch: Any, shape: tuple[int, ...]) -> Found:
 
 def _checked(words: _Words, **values: ArrayLike | None) -> dict[str, Array]:
     """The numbers that are given, as arrays; SheetError for the first that cannot be used."""
-    given = {name: real_numbers(v, name, words.unknown) for name, v in values.items() if v is not None}
+    given = {k: real_numbers(v, k, words.unknown) for k, v in values.items() if v is not None}
+    common_shape(given)
     for name, v in given.items():
         if (bad := np.isinf(v)).any():
             unit = words.unit if name == "equals" else words.unknown_unit

@@ -401,7 +401,7 @@ def number_and_unit(value: object) -> tuple[float, str]:
     """A number and the unit behind it; ValueError where there is no number."""
     if isinstance(value, int) and not isinstance(value, bool):
         return _float(value), ""
-    match = None if isinstance(value, bool) else _NUMBER.fullmatch(str(value).strip())
+    match = None if isinstance(value, bool | complex) else _NUMBER.fullmatch(str(value).strip())
     unit = match[2].strip() if match else ""
     if not match or (unit and not (len(unit) < _UNIT and re.match(r"[^\W\d_]|[%°]|1/", unit))):
         raise ValueError(f"{errors.as_given(value)} is no number")

@@ -191,7 +191,8 @@ def solve(
     seen = (from_guess if words.guessed else between)(equations, place, weights)
     chosen = seen.lowest if least else _nearest(seen, place)
     beside = np.full_like(chosen[0], np.nan) if least else aside(equations, place, chosen[0], chosen[2])
-    none = problem.void | np.isnan(chosen[0][0]) | ~np.isnan(beside[0])
+    lost = np.isnan(chosen[0][0]) | np.isnan(chosen[1]).any(0)  # of least squares: no step leads on from there
+    none = problem.void | lost | ~np.isnan(beside[0])
     x, residual, condition = (np.where(none, np.nan, a) for a in chosen)
 
     def shaped(a: NDArray[Any]) -> Any:

@@ -57,8 +57,15 @@ class Column:
         if isinstance(self.values, list):
             kind = object if any(isinstance(value, str) for value in self.values) else None
             object.__setattr__(self, "values", np.array(self.values, kind))
-        if isinstance(self.values, np.ndarray):
-            object.__setattr__(self, "values", unmasked(self.values))
+        if not isinstance(self.values, np.ndarray) or self.values.ndim != 1 or self.values.dtype.kind == "c":
+            told = "must be real numbers or texts, one a row"
+            refuse(SheetError(f"column {self.symbol}: its values {told}, not {as_given(self.values)}"))
+        object.__setattr__(self, "values", unmasked(self.values))
+        if self.unit and units.known(self.unit) is None:
+            measured(self.unit, f"column {self.symbol}")
+        if not isinstance(self.decimals, int) or self.decimals < 0:
+            given = as_given(self.decimals)
+            refuse(SheetError(f"column {self.symbol}: its decimals must be a whole number >= 0, not {given}"))
 
     @property
     def name(self) -> str:
@@ -338,7 +345,12 @@ def usual_decimals(unit: str) -> int:
 
 
 def _some_columns(what: str, columns: tuple[Column, ...], least: int = 1) -> None:
-    """Refuse what would be shown with fewer columns: it would look like a result."""
+    """Refuse what would be shown with fewer columns, or with some of another length: it would look like a result."""
+    if isinstance(columns, Column) or not all(isinstance(column, Column) for column in columns):
+        refuse(SheetError(f"{what}: its columns must be several of Column, not {as_given(columns)}"))
+    if len({column.values.size for column in columns}) > 1:
+        lengths = ", ".join(f"{column.values.size} of {column.name}" for column in columns)
+        refuse(SheetError(f"{what}: columns must be as long as each other, not {lengths}"))
     if len(columns) < least:
         refuse(SheetError(f"{what} needs at least {least} column{'s' * (least > 1)}"))
 
