@@ -153,11 +153,14 @@ def test_without_a_setup_the_cell_that_imports_gets_what_a_line_calls() -> None:
     text = f"{cells}@app.cell\ndef _(pi):\n    a = pi\n    b = 1\n    return a, b\n"
     told = change(text, "b", "b = 1", "b = cos(a) * mm")
     made = text.replace("import pi\n", "import cos, pi\n    from mechsheet.units import mm\n")
+    made = made.replace("return mo, pi", "return cos, mm, mo, pi")
     assert told.of(text) == made.replace("b = 1", "b = cos(a) * mm").replace("def _(pi)", "def _(cos, mm, pi)")
     assert told.back().of(told.of(text)) == text
     own = "@app.cell\ndef _():\n    from numpy import pi\n    b = pi\n    return b, pi\n"
     told = change(own, "b", "b = pi", "b = cos(pi)")
-    assert told.of(own) == own.replace("import pi", "import cos, pi").replace("b = pi", "b = cos(pi)")
+    assert told.of(own) == own.replace("import pi", "import cos, pi").replace("b = pi", "b = cos(pi)").replace(
+        "b, pi", "b, cos, pi"
+    )
     assert told.back().of(told.of(own)) == own
 
 

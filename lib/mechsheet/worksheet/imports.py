@@ -70,7 +70,10 @@ def _is_function(name: str) -> bool:
 
 
 class Setup(NamedTuple):
-    """The beginning of a worksheet's setup, down to the last of its imports that changes, before and after."""
+    """The beginning of a worksheet's setup, down to the last of its imports that changes, before and after.
+
+    Of a cell all of it.
+    """
 
     before: str
     after: str
@@ -88,6 +91,7 @@ def added(text: str, setup: ast.With | ast.FunctionDef, lines: Iterable[str]) ->
     top_row = body[0].lineno - 1
     indent = rows[top_row][: body[0].col_offset]
     names, changes = dict[str, set[str]](), list[tuple[int, int, list[str]]]()
+    lines = list(lines)
     for line in lines:
         match ast.parse(line).body:
             case [ast.ImportFrom(module=str(module), names=[alias])]:
@@ -102,12 +106,35 @@ def added(text: str, setup: ast.With | ast.FunctionDef, lines: Iterable[str]) ->
         else:
             at = _behind(node for node in body if _is_before(node, module)) or top_row
             changes.append((at, at, [f"{indent}from {module} import {', '.join(sorted(those, key=_order))}{end}"]))
+    match body[-1]:
+        case ast.Return(ast.expr() as value) as last:
+            given = {n.id for n in ast.walk(value) if isinstance(n, ast.Name)}.union(*map(_bound, lines))
+            changes.append((last.lineno - 1, _last(last), returning(sorted(given), indent, end)))
     made = list(rows)
     bottom = max(behind for _, behind, _ in changes)
     for first, behind, new in sorted(changes, key=lambda each: each[:2], reverse=True):
         made[first:behind] = new
     grown = len(made) - len(rows)
     return Setup("".join(rows[top:bottom]), "".join(made[top : bottom + grown]))
+
+
+def _bound(line: str) -> set[str]:
+    """Names that a line which imports binds."""
+    nodes = (node for node in ast.parse(line).body if isinstance(node, ast.Import | ast.ImportFrom))
+    return {alias.asname or alias.name for node in nodes for alias in node.names}
+
+
+def returning(names: Sequence[str], indent: str, end: str) -> list[str]:
+    """The rows of a cell that give names to others."""
+    one = ", ".join(names) if len(names) != 1 else f"({names[0]},)"
+    listed = one if len(one) <= WIDE - len(f"{indent}return ") else several(names, indent, end)
+    return [f"{indent}return {listed}".rstrip() + end]
+
+
+def several(names: Sequence[str], indent: str, end: str) -> str:
+    """Names in brackets over several lines."""
+    rows = textwrap.wrap(", ".join(names) + ",", WIDE - len(indent) - 4)
+    return end.join(["(", *(f"{indent}    {row}" for row in rows), f"{indent})"])
 
 
 def _last(node: ast.stmt) -> int:

@@ -22,7 +22,6 @@ from mechsheet.worksheet.line_shown import Given
 from mechsheet.worksheet.lines import formulas
 from mechsheet.worksheet.source import bound, functions, is_app, nodes, of_texts, read_outside, scopes_of
 
-_WIDE = 120  # characters of a line of the file
 OF_INPUT = "g."  # before the name of an input, as formulas read it
 _LIKE = {
     False: "a line is a name and what it is, such as F = m * a  # [N] force",
@@ -84,12 +83,13 @@ def change(text: str, name: str, was: str, new: str, below: bool = False) -> Cha
     own[place.last if below else place.first : place.last] = rows
     if new and place.cell_number is not None:
         _refuse_early("".join(own), place.last if below else place.first)
-    made, counted, (_, setup) = "".join(own), list[tuple[str, str]](), _imports(text, new)
+    made, counted, (lines, setup) = "".join(own), list[tuple[str, str]](), _imports(text, new)
     if place.cell_number is not None and _named(new) != _named("" if below else was):
         gone, gives = {} if below else line_shown.given(was), line_shown.given(new)
         made = line_shown.in_summary(line_shown.in_typeset(made, gone, gives, end), gone, gives, end)
-        if setup and setup.before in made:  # of the cell that imports
-            made, setup = made.replace(*setup), None
+        if setup and setup.before in place.cell:  # of the cell that imports
+            own_setup = imports.added(made, next(functions(ast.parse(made))), lines)
+            made, setup = made.replace(*own_setup or ("", "")), None
         whole = (text.replace(*setup) if setup else text).replace(place.cell, made)
         made = _signed(made, _parsed(text), _parsed(whole), place.cell_number, end)
         if gone or gives:
@@ -326,22 +326,14 @@ def _signed(cell: str, before: ast.Module, after: ast.Module, number: int, end: 
             if not given.issuperset(kept):
                 kept = [name for name in kept if name in given]
                 first, behind = _rows(last)
-                one = ", ".join(kept) if len(kept) != 1 else f"({kept[0]},)"
                 indent = rows[first - top][: last.col_offset]
-                listed = one if len(one) <= _WIDE - len(f"{indent}return ") else _several(kept, indent, end)
-                rows[first - top : behind - top] = [f"{indent}return {listed}".rstrip() + end]
+                rows[first - top : behind - top] = imports.returning(kept, indent, end)
     if wanted != set(arguments):
-        text, several = "".join(rows), _several(sorted(wanted), "", end)
+        text, several = "".join(rows), imports.several(sorted(wanted), "", end)
         start, stop = _brackets(text, node.name)
         one = f"({', '.join(sorted(wanted))})"
-        return text[:start] + (one if len(f"def {node.name}{one}:") <= _WIDE else several) + text[stop:]
+        return text[:start] + (one if len(f"def {node.name}{one}:") <= imports.WIDE else several) + text[stop:]
     return "".join(rows)
-
-
-def _several(names: Sequence[str], indent: str, end: str) -> str:
-    """Names in brackets over several lines."""
-    rows = textwrap.wrap(", ".join(names) + ",", _WIDE - len(indent) - 4)
-    return end.join(["(", *(f"{indent}    {row}" for row in rows), f"{indent})"])
 
 
 def _brackets(cell: str, name: str) -> tuple[int, int]:
