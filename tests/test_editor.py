@@ -16,6 +16,7 @@ from test_page import choose, choose_by_keys
 from written_cells import Values
 
 from mechsheet import __main__ as launcher
+from mechsheet import find
 from mechsheet.document.left_out import left_out, unseen
 from mechsheet.page import editor as told_by
 from mechsheet.page import in_place, notebook
@@ -243,7 +244,7 @@ def test_a_line_is_written_with_the_import_of_what_it_calls(editor):
 
 
 def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):
-    """It was neither, and nothing said so: the verdict stayed at 2 of 2 checks."""
+    """It was neither, and nothing said so: the verdict stayed at 2 of 2 checks; nor could it, or a table, be edited."""
     page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
     before, area = file.read_bytes(), page.locator(".ms-box textarea")
     page.locator("#line-sigma > span").last.click()
@@ -251,11 +252,27 @@ def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):
     page.keyboard.press("Control+Enter")
     area.fill('light = check("force on the lever", g.F, 2e3, "N")')
     page.locator(".ms-box").get_by_text("force on the lever").wait_for()
-    area.press("Enter")
+    area.press("Control+Enter")
     editor.expect("3 of 3 checks pass")
-    cell = page.locator(".marimo-cell", has=page.locator("#line-sigma"))
-    cell.get_by_text("force on the lever").first.wait_for()
-    page.locator(".ms-written").get_by_text("light is writtenundo").wait_for()
+    shown = page.locator(".marimo-cell [data-line=light]")
+    expect(shown).to_contain_text("force on the lever")
+    expect(area).to_have_value("")  # a new line below, which there was none of behind what is no formula
+    area.press("Escape")
+    shown.click()
+    expect(area).to_have_value('light = check("force on the lever", g.F, 2e3, "N")')
+    area.press("Escape")
+    table = page.get_by_role("group", name="Table 1 – Moment of the lever")
+    for key in ("F2", "Enter"):
+        table.press(key)
+        expect(area).to_have_value('table_1 = table("1", "Moment of the lever", phi, M_S)')
+        area.press("Escape")
+        expect(table).to_be_focused()
+    count = page.locator(".marimo-cell").count()
+    table.press("b")  # a new cell below, to marimo
+    page.get_by_role("figure", name="Figure 1 – Moment of the lever").locator(".ms-caption").click()
+    expect(area).to_have_value(re.compile("^figure_1 = figure"))
+    area.press("Escape")
+    assert page.locator(".marimo-cell").count() == count
     page.keyboard.press("Control+z")
     editor.expect("2 of 2 checks pass")
     assert file.read_bytes() == before
@@ -603,13 +620,31 @@ def test_a_check_that_no_cell_shows_is_told():
     ]
 
 
+def test_a_check_that_is_shown_and_not_counted_is_told():
+    """The verdict was that all checks pass, where a run said that this one fails."""
+    own = "from mechsheet import check, summary\na = check('a', g.D, 1.0)\nb = (check('b', g.D, 1.0), a)\n"
+    own += "c = check('c', g.D, 0.1)\nd = [*b]"
+    found = bar(own, "typeset(a, c)", "typeset(check('e', g.D, 0.1), b)", "summary(*d)")
+    assert found.texts(told_by.unsaid(found.cells, found.names)) == [
+        "c3: line 4, c = check('c', g.D, 0.1): c is not counted in the verdict: give it to summary()",
+        "c5: line 1, typeset(check('e', g.D, 0.1), b): a check has no name and is not counted in the verdict: "
+        "bind it to one, and give that to summary()",
+    ]
+    found = bar(own, "typeset(a, b, c, d)")
+    assert not found.texts(told_by.unsaid(found.cells, found.names))
+
+
 @pytest.mark.parametrize("path", sorted(ROOT.glob("worksheets/**/*.py")), ids=lambda path: path.stem)
 def test_of_no_worksheet_is_a_check_told_that_none_shows(path):
-    cells, made = source._in_file(str(path), 0), set[str]()
+    cells, made, found = source._in_file(str(path), 0), {}, find(lambda x: x, -1, 1)
     for statement in (statement for cell in cells for statement in cell.body):
         with suppress(SyntaxError):
-            made |= {name for name, each in given(ast.unparse(statement)).items() if each.is_check or "_found" in name}
-    assert not [*unseen(cells, dict.fromkeys(made, Check("any", 1.0, 2.0)))]
+            shown = {
+                name: Check("any", 1.0, 2.0) if each.is_check else found
+                for name, each in given(ast.unparse(statement)).items()
+            }
+            made |= {name: value for name, value in shown.items() if value is not found or "_found" in name}
+    assert not [*unseen(cells, made)]
 
 
 def test_a_unit_without_brackets_is_told_and_no_other_comment():

@@ -4,7 +4,7 @@ And units that the numbers of inputs lack.
 """
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from mechsheet.units import Constant
 from mechsheet.worksheet import inputs, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.line_shown import CHECKS
 from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.typeset import typeset_lines
@@ -76,21 +77,49 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
 
 
 def unseen(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
-    """Checks and solve blocks that cells bind to names which none of them reads or shows.
+    """Checks and solve blocks that cells bind to names which none of them reads or shows, and checks not counted.
 
     A table or figure may be there for the workbook alone.
     """
     cells = list(cells)
-    nodes = [node for cell in cells for statement in cell.body for node in source.nodes(statement)]
-    read = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+    read = _read(node for cell in cells for node in cell.body)
+    counted = _counted(cells)
     for n, cell in enumerate(cells):
         for node in cell.body:
-            for name in sorted({*bound(node)} - read) if isinstance(node, ast.Assign) else ():
+            for name in sorted({*bound(node)}) if isinstance(node, ast.Assign) else ():
                 value = names.get(name)
                 kinds = {type(each) for each in (value if isinstance(value, tuple | list) else [value])}
-                if kinds and all(issubclass(kind, _SEEN) for kind in kinds):
-                    counted = " and to summary()" if kinds == {Check} else ""
-                    yield LeftOut(n, node.lineno, f"{name} is not shown: give it to typeset(){counted}")
+                if kinds and all(issubclass(kind, _SEEN) for kind in kinds) and name not in read:
+                    into = " and to summary()" if kinds == {Check} else ""
+                    yield LeftOut(n, node.lineno, f"{name} is not shown: give it to typeset(){into}")
+                elif kinds == {Check} and counted is not None and name not in counted:
+                    yield LeftOut(n, node.lineno, f"{name} is not counted in the verdict: give it to summary()")
+            if isinstance(node, ast.Expr) and counted is not None and not _sums(node):
+                for call in (call for kind in sorted(CHECKS) for call in source.calls_of(node, kind)):
+                    why = "has no name and is not counted in the verdict: bind it to one, and give that to summary()"
+                    yield LeftOut(n, call.lineno, f"a {ast.unparse(call.func)} {why}")
+
+
+def _read(statements: Iterable[ast.stmt]) -> set[str]:
+    nodes = (node for statement in statements for node in source.nodes(statement))
+    return {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+
+
+def _sums(node: ast.stmt) -> bool:
+    return any(source.calls_of(node, "summary"))
+
+
+def _counted(cells: Sequence[source.Cell]) -> set[str] | None:
+    """Names of which a summary tells, by others too; None where there is no summary, or it may tell of any."""
+    statements = [node for cell in cells for node in cell.body]
+    found = _read(filter(_sums, statements))
+    if not found or "globals" in found:
+        return None
+    before = set[str]()
+    while before != found:
+        before = found
+        found = found | _read(node for node in statements if not found.isdisjoint(bound(node)))
+    return found
 
 
 _SEEN = (Check, Verdict)

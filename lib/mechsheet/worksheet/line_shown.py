@@ -8,8 +8,8 @@ import io
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-_CHECKS = {"check", "check_slope", "closed_form", "assembled", "balance"}
-_SHOWN = {*_CHECKS, "find", "minerr", "table", "figure", "caption", "Drawing"}
+CHECKS = {"check", "check_slope", "closed_form", "assembled", "balance"}
+_SHOWN = {*CHECKS, "find", "minerr", "table", "figure", "caption", "Drawing"}
 _WIDE = 120  # characters of a line of the file
 
 
@@ -31,7 +31,7 @@ def given(line: str) -> dict[str, Given]:
             parts = value.elts if isinstance(value, ast.Tuple | ast.List) else [value]
             calls = set(map(_maker, parts))
             if calls and _SHOWN.issuperset(calls):
-                return {name: Given(parts != [value] or _gives_several(value), _CHECKS.issuperset(calls))}
+                return {name: Given(parts != [value] or _gives_several(value), CHECKS.issuperset(calls))}
     return {}
 
 
