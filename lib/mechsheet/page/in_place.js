@@ -5,6 +5,8 @@
   const EMPTY = { false: "F = m * a  # [N] force", true: "L: float = 0.5  # [m] length; > 0" };
   const UNSAVED = "a cell holds text that is not run and saved: run it and save (Ctrl+S), then write here";
   const TAKEN = 500; // ms between two questions whether the page has taken the file over
+  const SHOWN = ".ms-line, [data-line]";
+  const later = () => new Promise((then) => setTimeout(then, TAKEN));
   const AGAIN = "the page was being computed anew meanwhile: once more";
   const LEFT = "Enter writes this line, Esc leaves it as it was";
   let waiting; // the question that has no answer yet
@@ -65,7 +67,8 @@
   const explain = (text) => (why.textContent = [text, of.left].filter(Boolean).join("; "));
 
   function place() {
-    if (!box.isConnected || !of.place.isConnected) return;
+    if (!box.isConnected) return;
+    if (!of.place.isConnected) edit(placeOf(of.name) ?? of.place); // it was drawn anew
     const at = of.place.getBoundingClientRect();
     box.style.left = `${at.left}px`;
     box.style.top = `${at.bottom + 2}px`;
@@ -73,6 +76,13 @@
   }
   document.addEventListener("scroll", place, { capture: true, passive: true });
   addEventListener("resize", place);
+
+  // What is outlined, and has the box beneath it.
+  function edit(host) {
+    of.place.classList.remove("ms-edited");
+    of.place = host;
+    host.classList.add("ms-edited");
+  }
 
   function show(text) {
     area.value = text;
@@ -84,8 +94,12 @@
   }
 
   function toView() {
-    place();
     area.focus();
+    toSight();
+  }
+
+  function toSight() {
+    place();
     const { top, bottom } = box.getBoundingClientRect();
     if (top < 0 || bottom > innerHeight - 150) of.place.scrollIntoView({ block: "center" });
   }
@@ -99,7 +113,7 @@
     close();
     area.value = "";
     const mine = (of = { place: host, name, was: "", below: false, from: focused() });
-    host.classList.add("ms-edited");
+    edit(host);
     typed.replaceChildren();
     const { line, why: told } = await ask({ do: "open", name });
     if (of !== mine) return;
@@ -131,6 +145,13 @@
     return found?.shadowRoot?.activeElement ? focused(found.shadowRoot) : found;
   }
 
+  // Who works by keys goes on where the line stands now.
+  function focus(name) {
+    const now = placeOf(name);
+    const field = now?.querySelector("marimo-ui-element > *")?.shadowRoot?.querySelector("input, select, button");
+    (field ?? now?.closest(SHOWN))?.focus({ preventScroll: true });
+  }
+
   // One question at a time: what was typed meanwhile is asked for then.
   let timer;
   let asking = false;
@@ -147,6 +168,7 @@
     if (answer.shown === undefined) return;
     typed.innerHTML = answer.shown;
     typed.querySelectorAll("[id]").forEach((each) => each.removeAttribute("id")); // the page's own lines have them
+    toSight();
   }
 
   function typing() {
@@ -181,12 +203,18 @@
     }
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
+    const byKeys = mine && of === mine && mine.from !== document.body;
     if (mine && of === mine) close();
     const done = `${name.replace("g.", "")} is ${what.do === "undo" ? "as it was" : "written"}`;
     say(`${done}, the page takes it over`);
     for (let n = 0; n < 40; n++) {
-      await new Promise((later) => setTimeout(later, TAKEN));
-      if ((await ask({ do: "taken" })).taken) return say(done), then?.(name);
+      await later();
+      if ((await ask({ do: "taken" })).taken) {
+        say(done);
+        if (then) return then(name);
+        await later();
+        return byKeys && focused() === document.body && focus(name);
+      }
     }
     say(`${done} into the file, but the page has not taken it over: open it by mechsheet edit, which watches the file`);
   }
@@ -215,9 +243,10 @@
     // What is typed is written first; the new line opens beneath it, where it stands then.
     below() {
       if (!isTypedIn() || !area.value.trim()) return below();
-      acts.write((name) => {
+      acts.write(async (name) => {
+        for (let n = 0; n < 20 && !placeOf(name); n++) await later();
         const now = placeOf(name);
-        if (now) open(now, name).then(below);
+        if (now && !of) open(now, name).then(below);
       });
     },
     undo,
@@ -273,17 +302,23 @@
   document.addEventListener("click", deleting, { capture: true });
   document.addEventListener("cmdk-item-select", deleting, { capture: true }); // Enter in the palette
 
+  // A table or figure is edited beneath its caption: what is clicked in a chart is a place in it.
   function placeOf(name) {
-    return name.startsWith("g.")
-      ? document.querySelector(`td[data-input="${name.slice(2)}"]`)?.parentElement
-      : document.getElementById(`line-${name}`);
+    if (name.startsWith("g.")) return document.querySelector(`td[data-input="${name.slice(2)}"]`)?.parentElement;
+    const shown = document.getElementById(`line-${name}`) ?? document.querySelector(`[data-line="${name}"]`);
+    return shown?.querySelector(":scope > .ms-caption") ?? shown;
   }
 
   // A line, or the row of an input but for its field, by name; what is clicked for something else in it does that.
   function clicked(target) {
     if (box.contains(target) || target.closest?.("a, button, ms-unit, [data-input], marimo-ui-element, .ms-box")) return [];
-    const row = target.closest?.(".ms-line, .ms-inputs tr");
+    return target.closest?.("ms-figure svg") ? [] : lineOf(target);
+  }
+
+  function lineOf(target) {
+    const row = target.closest?.(".ms-line, .ms-inputs tr, [data-line]");
     if (!row || !row.closest(".marimo-cell.interactive")) return [];
+    if (row.dataset.line) return [row.querySelector(":scope > .ms-caption") ?? row, row.dataset.line];
     const input = row.querySelector(":scope > td[data-input]");
     let line = row;
     while (line && !input && !line.id) line = line.previousElementSibling; // further equations of a solve block
@@ -291,14 +326,17 @@
     return line?.id.startsWith("line-") ? [row, line.id.slice("line-".length)] : [];
   }
 
-  // F2 on a field, or on the unit of a formula, as in a cell of a spreadsheet.
-  document.addEventListener("keydown", (event) => {
-    const at = event.key === "F2" && event.target.closest?.(".ms-line, .ms-inputs tr");
-    const [row, name] = at ? clicked(at) : [];
+  // F2 on a field, a unit, or what is shown, as in a cell of a spreadsheet; Enter on what is shown.
+  const opening = (event) => {
+    const { key, target } = event;
+    const isShown = target.matches?.(SHOWN) && !event.ctrlKey && !event.metaKey;
+    const [row, name] = key === "F2" || (key === "Enter" && isShown) ? lineOf(target) : [];
+    if (isShown) event.stopPropagation(); // a letter is a command for the whole cell to the editor
     if (!row) return;
     event.preventDefault();
     open(row, name);
-  });
+  };
+  document.addEventListener("keydown", opening, { capture: true });
 
   document.addEventListener("click", (event) => {
     const [row, name] = clicked(event.target);

@@ -19,6 +19,8 @@ from mechsheet.document.markup import as_written, compared, in_words, meant, mes
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
 from mechsheet.page import fields, notebook, switched
+from mechsheet.page.charted import charted
+from mechsheet.page.editable import marking
 from mechsheet.page.headings import heading
 from mechsheet.page.lines import lines
 from mechsheet.page.needed import needed
@@ -53,7 +55,7 @@ _TOLD = f'<div class="ms-told" style="display:none">{_LOST} </div>'
 def written(value: object) -> tuple[str, str]:
     """MIME type and text of a value of the package."""
     try:
-        text = html(value)
+        text = _marked(value)
     except Exception as error:  # which marimo would leave out without a word
         text = failed(f"this {type(value).__name__} cannot be shown: {mistakes.why(error, ())}", ends=False)
     titled = mo.running_in_notebook() and notebook.shows("title_block")
@@ -140,6 +142,9 @@ def html(value: Any) -> str:
     return str(text) if kind == "text/html" else mo.as_html(value).text
 
 
+_marked = marking(html)
+
+
 @html.register
 def _(markdown: str) -> str:
     return _set(markdown)
@@ -152,31 +157,13 @@ def _set(markdown: str) -> str:
 
 @html.register
 def _(value: Charted) -> str:
-    return _altair(value.chart())
-
-
-def _altair(chart: Any) -> str:
-    """HTML of an altair chart in the face of the page's own: on its ground, in its letters, the title as a caption."""
-    from altair import Undefined  # on use: only such a chart needs it
-
-    chart, place, title = chart.copy(deep=False), "", ""
-    if isinstance(chart.title, str):
-        place, _, title = chart.title.partition(" – ")
-        chart.title = Undefined
-    config = {} if chart.config is Undefined else chart.config.to_dict()
-    config |= {"background": "transparent", "font": _LETTERS, "view": {**config.get("view", {}), "stroke": _FAINT}}
-    faint = dict.fromkeys(("gridColor", "domainColor", "tickColor"), _FAINT)
-    chart.config = {**config, "axis": {**config.get("axis", {}), **faint, "titleFontWeight": "normal"}}
-    shown = mo.as_html(chart).text  # as a whole once: altair looks all through what it is given as a dictionary
-    return f"{shown}{_caption('Figure', place.removeprefix('Figure '), title)}" if title else shown
-
-
-_LETTERS, _FAINT = "PT Sans, sans-serif", "#88888860"
+    shown, place, title = charted(value.chart())
+    return f"{shown}{_caption('Figure', place, title)}" if title else shown
 
 
 @html.register
 def _(value: Drawing) -> str:
-    return drawing_svg.svg(value)
+    return drawing_svg.svg(value).replace("<svg", '<svg role="img" aria-label="drawing"', 1)
 
 
 @html.register
@@ -235,20 +222,23 @@ def _(value: Caption) -> str:
 
 
 def _caption(what: str, number: str, title: str) -> str:
-    place = escape(f"{what.lower()}-{number}")
-    return f'<div class="ms-caption" id="{place}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+    return f'<div class="ms-caption" id="{_place(what, number)}"><b>{what} {escape(number)}</b> – {escape(title)}</div>'
+
+
+def _place(what: str, number: str) -> str:
+    return escape(f"{what.lower()}-{number}")
 
 
 @html.register
 def _(value: SideBySide) -> str:
-    columns = ("".join(map(html, column)) for column in value.columns)
+    columns = ("".join(map(_marked, column)) for column in value.columns)
     rows = f' style="--row:{value.row}"' if value.row else ""
     return f'<div class="ms-beside"{rows}>{"".join(f"<div>{each}</div>" for each in columns)}</div>'
 
 
 @html.register
 def _(value: Typeset) -> str:
-    return lines(value) + "".join(map(html, value.shown))
+    return lines(value) + "".join(map(_marked, value.shown))
 
 
 @html.register
@@ -402,13 +392,15 @@ def _chart(figure: Figure) -> str:
     layout = chart.line_chart(figure.x, figure.lines, figure.marks, figure.every)
     picture = switched.chart(figure, layout, chart_svg.svg(layout))
     caption = _caption("Figure", figure.number, figure.title)
-    return f'<ms-figure class="ms-figure">{picture}{caption}</ms-figure>'
+    named = f'role="figure" aria-labelledby="{_place("Figure", figure.number)}"'
+    return f'<ms-figure class="ms-figure" {named}>{picture}{caption}</ms-figure>'
 
 
 @html.register
 def _(table: Table) -> str:
     note = f'<div class="ms-note">{_in_words(table.note, table.said)}</div>' if table.note else ""
-    return f'<div class="ms-table">{_table(replace(table, note=""))}{note}</div>'
+    named = f'role="group" aria-labelledby="{_place("Table", table.number)}" tabindex="0"'
+    return f'<div class="ms-table" {named}>{_table(replace(table, note=""))}{note}</div>'
 
 
 @kept(128)
