@@ -161,6 +161,15 @@ def edit_in_place(editor):
     expect(done).to_have_text("M_add is as it was")
     assert file.read_bytes() == before
     expect(area).to_have_value("M_n = 3 * g.parts")
+    area.fill("M_k = g.parts * g.F * g.L / n  # [N*m] greatest moment in each load case")
+    area.press("Enter")
+    expect(box.get_by_role("button", name="M_n becomes M_k everywhere")).to_be_visible()
+    area.press("Alt+Enter")
+    expect(done).to_have_text(re.compile("^M_k is writtenundo"))
+    assert file.read_bytes() == before.replace(b"M_n", b"M_k")
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_k is as it was")
+    click_until(page, area)
     area.fill("")
     box.get_by_text("M_n goes, needed in section 2.2, 3 and table 2").first.wait_for()
     area.press("Enter")
@@ -535,9 +544,9 @@ def test_what_another_worksheet_computes_is_left_out():
 
 
 def test_mistakes_in_names_and_of_python_are_put_in_words():
-    found = bar("S_1 = 2 * g.LL", "S_2 = S3 * 2  # twice", "S_3 = 1 / 0", "S_3 = M", "len(S_3)")
-    assert found.texts(told_by.unknown(found.cells, found.names, {"M": "c2"})) == [
-        "c3: line 1, S_1 = 2 * g.LL: there is no input LL (did you mean L?)",
+    found = bar("S_1 = 2 * g.LL + g.LL", "S_2 = S3 * 2  # twice", "S_3 = 1 / 0", "S_3 = M", "len(S_3)")
+    assert found.texts(told_by.unknown(found.cells, found.names, {"M": "c2", "S3": "c4"})) == [
+        "c3: line 1, S_1 = 2 * g.LL + g.LL: there is no input LL (did you mean L?)",
         "c4: line 1, S_2 = S3 * 2: the name S3 is not defined in any cell (did you mean S_3?)",
         "c5: S_3 is defined in two cells: rename it in one of them; a name such as _S_3 stays in its cell",
         "c6: S_3 is defined in two cells: rename it in one of them; a name such as _S_3 stays in its cell",

@@ -382,6 +382,30 @@ def test_what_is_typed_is_read_whatever_stands_before_it_and_warns_nowhere(
     assert not recwarn.list
 
 
+def test_a_line_that_changes_its_name_does_so_everywhere_and_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It left all lines that read the name without a value, and only a command gave them the other one."""
+    path, scene = tmp_path / "lever.py", tmp_path / "light.toml"
+    path.write_text(TEMPLATE, encoding="utf-8")
+    scene.write_text("[inputs]\nF = 3\n", encoding="utf-8")
+    monkeypatch.setattr(notebook, "running", lambda: (lambda: (), {}))
+    page = in_place.InPlace({"__file__": str(path)}, lambda: None)
+    monkeypatch.setattr(page, "is_taken", lambda text: True)
+    new = "F_0: float = 1300.0  # [N] force"
+    asked = {"name": "g.F", "was": line(TEMPLATE, "g.F"), "new": new}
+    told = page.done("write", **asked)
+    assert told["asks"].startswith("F goes, needed in") and told["renames"] == ["F", "F_0"]
+    told = page.done("write", everywhere=True, **asked)
+    made = path.read_text(encoding="utf-8")
+    assert f"    {new}\n" in made and "return g.F_0 * g.L * sin(phi)" in made and "g.F " not in made
+    assert scene.read_text(encoding="utf-8") == "[inputs]\nF_0 = 3\n"
+    page.done("undo", before=told["written"]["after"], after=told["written"]["before"])
+    assert path.read_text(encoding="utf-8") == TEMPLATE
+    assert scene.read_text(encoding="utf-8") == "[inputs]\nF = 3\n"
+    assert page.done("write", **asked | {"new": ""})["renames"] == []
+
+
 CHECK = 'light = check("force", g.F, 2e3, "N")'
 
 

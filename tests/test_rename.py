@@ -55,6 +55,14 @@ def test_an_input_is_renamed_in_lines_comments_texts_and_scenes(bolt: Path) -> N
     assert (bolt.parent / "other.toml").read_text(encoding="utf-8") == OTHER
 
 
+def test_ends_of_lines_stay(bolt: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All those of the worksheet became others with the name."""
+    bolt.write_bytes(bolt.read_bytes().replace(b"\n", b"\r\n"))
+    in_process(monkeypatch, bolt, "R", "ratio")
+    assert b"return ratio, U" in bolt.read_bytes()
+    assert bolt.read_bytes().count(b"\n") == bolt.read_bytes().count(b"\r\n") > 9
+
+
 def test_a_result_is_renamed_where_cells_take_and_give_it(bolt: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     expected = evaluate(bolt, ["R"])["R"]
     in_process(monkeypatch, bolt, "R", "ratio")

@@ -358,7 +358,8 @@ def section_10():
 
         python lib/mechsheet rename hinge M_max M_lim
 
-    gives a symbol another name in all lines, comments and texts of a worksheet, and in its scenes.
+    gives a symbol another name in all lines, comments and texts of a worksheet, and in its scenes. In the editor a line
+    that is given another name offers the same.
 
     A mechanism is written as its crank or cylinder, then one group a line, from which all else follows; the example
     `bucket` shows it with forces, `hitch` with everything that a document has. `engine` reads a file and drives a

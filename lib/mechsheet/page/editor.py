@@ -95,16 +95,17 @@ def unknown(
     for cell in cells:
         if names_twice := sorted(cell.defs.intersection(twice)):
             yield Note(cell.cell_id, mistakes.twice(*names_twice))
-        missing = cell.refs - defined - set(dir(builtins))
+        missing, told = cell.refs - defined - set(dir(builtins)), set[str]()
         for node in _read(cell.code):
             why = ""
             if isinstance(node, ast.Attribute):
-                if fields and not hasattr(names["g"], node.attr):
+                if fields and not hasattr(names["g"], node.attr) and node.attr not in told:
+                    told.add(node.attr)
                     why = mistakes.no_input(node.attr, fields)
             elif node.id in missing:
                 missing = missing - {node.id}  # told once a cell
                 why = mistakes.undefined(node.id, defined, fields)
-                if node.id in gone:
+                if gone.get(node.id, cell.cell_id) != cell.cell_id:  # by another cell, which tells why itself
                     place = cell.cell_id, _line(cell, node.lineno), node.id
                     waiting.setdefault(gone[node.id], []).append(place)
                     continue

@@ -50,7 +50,7 @@
   box.innerHTML =
     '<textarea spellcheck="false" aria-label="line of the worksheet"></textarea><div class="ms-typed"></div>' +
     '<div class="ms-why" role="alert"></div><div class="ms-keys"><button data-do="write">write <kbd>Enter</kbd></button>' +
-    '<button data-do="below">new line below <kbd>Ctrl+Enter</kbd></button>' +
+    '<button data-do="everywhere"></button><button data-do="below">new line below <kbd>Ctrl+Enter</kbd></button>' +
     '<button data-do="undo">undo <kbd>Ctrl+Z</kbd></button>' +
     '<button data-do="code">code</button><button data-do="close">close <kbd>Esc</kbd></button></div>';
   const [area, typed, why, keys] = box.children;
@@ -84,8 +84,16 @@
     host.classList.add("ms-edited");
   }
 
+  // Another name for what is needed elsewhere can be written there too.
+  function offer([old, other]) {
+    const button = keys.querySelector('[data-do="everywhere"]');
+    button.hidden = !other;
+    button.innerHTML = `${old} becomes ${other} everywhere <kbd>Alt+Enter</kbd>`;
+  }
+
   function show(text) {
     area.value = text;
+    offer([]);
     area.placeholder = EMPTY[of.name.startsWith("g.")];
     area.rows = Math.max(text.split("\n").length, 1);
     document.body.append(box);
@@ -180,6 +188,7 @@
   area.addEventListener("input", () => {
     of.left = "";
     of.sure = false; // of the text that was asked about
+    offer([]);
     typing();
   });
 
@@ -198,7 +207,10 @@
     if (own) name = (name.startsWith("g.") ? "g." : "") + own;
     if (answer.why) return tell(answer.why);
     if (answer.asks) {
-      if (mine && of === mine) of.sure = true;
+      if (mine && of === mine) {
+        of.sure = true;
+        offer(answer.renames);
+      }
       return tell(`${answer.asks}: Enter once more writes it, Esc leaves it as it was`);
     }
     if (what.do === "undo") written.pop();
@@ -236,9 +248,13 @@
   }
 
   const acts = {
-    write(then) {
-      if (!area.readOnly && (area.value.trim() || !of.below))
-        write({ do: "write", name: of.name, was: of.was, new: area.value, below: of.below, sure: of.sure ?? false }, of.name, then);
+    write(then, more = {}) {
+      const { name, was, below, sure = false } = of;
+      if (!area.readOnly && (area.value.trim() || !below))
+        write({ do: "write", name, was, new: area.value, below, sure, ...more }, name, then);
+    },
+    everywhere() {
+      if (!keys.querySelector('[data-do="everywhere"]').hidden) acts.write(undefined, { everywhere: true });
     },
     // What is typed is written first; the new line opens beneath it, where it stands then.
     below() {
@@ -262,7 +278,7 @@
     if (event.key === "Escape") close();
     else if (event.key === "Enter" && !event.shiftKey) {
       event.preventDefault();
-      acts[event.ctrlKey || event.metaKey ? "below" : "write"]();
+      acts[event.ctrlKey || event.metaKey ? "below" : event.altKey ? "everywhere" : "write"]();
     }
   });
 

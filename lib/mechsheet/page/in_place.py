@@ -29,11 +29,12 @@ from mechsheet.page import bounded, editor, fields, notebook, values
 from mechsheet.page.needing import needing
 from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
-from mechsheet.worksheet import inputs, mistakes, source
+from mechsheet.worksheet import inputs, mistakes, scene, source
 from mechsheet.worksheet.errors import SheetError, some
 from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, imported, line, same_cells
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.numbers import on_page
+from mechsheet.worksheet.renaming import renamed
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.typeset import Numbers, Typeset, no_number
 
@@ -51,6 +52,7 @@ class InPlace:
         self.namespace, self.redraw = namespace, redraw
         self.path = Path(namespace["__file__"])
         self.answer: dict[str, Any] = {}
+        self.scenes: dict[str, dict[Path, tuple[str, str]]] = {}
         self.field = mo.ui.text_area(on_change=self.asked)
         # Of what is read as one types, by its name: the cell of a line that is written warns itself.
         warnings.filterwarnings("ignore", "", SyntaxWarning, f"<unknown>|{_FILE}")
@@ -83,9 +85,10 @@ class InPlace:
         new: str = "",
         below: bool = False,
         sure: bool = False,
+        everywhere: bool = False,
         **parts: Sequence[str],
     ) -> Any:
-        """What the page is told of what it asked."""
+        """What the page is told of what it asked; a name that a line lets go may be another one ``everywhere``."""
         text, new = self.path.read_bytes().decode(), new.strip()
         match do:
             case "open":
@@ -98,14 +101,34 @@ class InPlace:
                 return {"asks": _needed(text, name)}
         if not self.is_taken(text):
             raise SheetError(_UNSAVED)
+        if everywhere:
+            return self.rename(text, name, was, new)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
         made = told.of(text)
         if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
-            return {"asks": need}
+            return {"asks": need, "renames": _renames(was, new)}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)
+        for path, (now, former) in self.scenes.pop(made, {}).items() if do == "undo" else ():
+            if path.is_file() and path.read_bytes().decode() == now:
+                save(former.encode(), path)
         return {"written": told._asdict()}
+
+    def rename(self, text: str, name: str, was: str, new: str) -> Any:
+        """Write a line that gives its name another one, and that one in all others, and in the scenes beside the file.
+
+        Texts of the scenes, now and before, are kept by that of the file before, for the change to be taken back.
+        """
+        old, other = _renames(was, new)
+        made = renamed(self.path, old, other, scene.texts_beside(self.path))
+        renamed_name = name.removesuffix(old) + other
+        whole = made.pop(self.path)
+        whole = change(whole, renamed_name, line(whole, renamed_name), new).of(whole)
+        self.scenes[text] = {path: (now, path.read_bytes().decode()) for path, now in made.items()}
+        for path, now in {self.path: whole, **made}.items():
+            save(now.encode(), path)
+        return {"written": Change((text,), (whole,))._asdict()}
 
     def is_taken(self, text: str) -> bool:
         """Whether the cells of the page are those of the file."""
@@ -248,6 +271,13 @@ def _needing(text: str, name: str, was: str, new: str) -> str:
     gone = sorted({before + own for own in _declared(was) - _declared(new)})
     places = needing(text, gone) if gone else ""
     return _go([own.removeprefix(OF_INPUT) for own in gone], places) if places else ""
+
+
+def _renames(was: str, new: str) -> list[str]:
+    """The name that a line has no longer, and the one that it has instead; nothing where it has several."""
+    before, after = _declared(was), _declared(new)
+    both = [*(before - after), *(after - before)]
+    return both if len(before - after) == len(after - before) == 1 else []
 
 
 def _needed(text: str, cell_id: str) -> str:

@@ -8,7 +8,7 @@ from mechsheet.run.ending import say, watch
 from mechsheet.workbook.save import save
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.renaming import renamed
-from mechsheet.worksheet.scene import beside
+from mechsheet.worksheet.scene import texts_beside
 
 
 def main() -> None:
@@ -17,10 +17,9 @@ def main() -> None:
     if len(names) != 2:
         raise UsageError("rename takes a worksheet, a symbol and its new name, such as hitch F_gc F_c")
     path, (old, new) = Path(worksheet), names
-    scenes = {scene: text for scene in beside(path) if (text := _read(scene)) is not None}
     load(path)  # tells what cannot be read
     with usage():
-        made = renamed(path, old, new, scenes)
+        made = renamed(path, old, new, texts_beside(path))
     before = {file: file.read_bytes() for file in made}
     try:
         for file, text in made.items():
@@ -31,14 +30,6 @@ def main() -> None:
                 save(held, file)
         raise
     say(*(f"written {file}" for file in made))
-
-
-def _read(scene: Path) -> str | None:
-    """The text of a file that may be a scene; None of one that is no text, and so none."""
-    try:
-        return scene.read_text(encoding="utf-8")
-    except UnicodeDecodeError:
-        return None
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
         raise SheetError(f"{as_given(new)} is no name: it must be letters, digits and _, first a letter")
     if new.startswith("_"):
         raise SheetError(f"{new} begins with _: such a name stays within its cell")
-    text = path.read_text(encoding="utf-8")
+    text = path.read_bytes().decode()  # with its ends of lines
     if old not in declared and old in _imported(ast.parse(text)):
         raise SheetError(f"{old} is imported, and no symbol of {path.name}")
     for token in _tokens(text):

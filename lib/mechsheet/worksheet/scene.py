@@ -18,6 +18,7 @@ A wanted or limited name is that of a result, a part of one as in a table (``PS6
 import re
 import unicodedata
 from collections.abc import Collection, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -70,6 +71,15 @@ class Scene:
 def beside(worksheet: Path) -> list[Path]:
     """Files that may be scenes in the folder of a worksheet, and in ``scenes`` there."""
     return sorted([*worksheet.parent.glob("*.toml"), *worksheet.parent.glob("scenes/*.toml")])
+
+
+def texts_beside(worksheet: Path) -> dict[Path, str]:
+    """Texts of the files that may be scenes of a worksheet, but for those that are no text."""
+    found = dict[Path, str]()
+    for path in beside(worksheet):
+        with suppress(UnicodeDecodeError):
+            found[path] = path.read_bytes().decode()
+    return found
 
 
 def is_of(text: str, declared: Iterable[str], results: Collection[str] = ()) -> bool:
