@@ -302,6 +302,30 @@ def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
     expect(unit).to_be_focused()
 
 
+def test_a_second_tab_shows_what_the_first_computes_with(editor, browser):
+    """Its fields kept what they were given first, and what was typed there was computed beside the fields of the first."""
+    name = "Mmax, N·m, greatest moment> 0"
+    first = editor.page.get_by_role("textbox", name=name)
+    with new_page(browser) as second:
+        second.goto(editor.page.url)
+        second.get_by_text("You are currently connected as a reader").wait_for()
+        field = second.get_by_role("textbox", name=name)
+        for text in ("310", "320"):
+            editor.page.bring_to_front()
+            first.fill(text)
+            first.press("Enter")
+            expect(field).to_have_value(text)
+        second.bring_to_front()
+        field.fill("330")
+        field.press("Enter")
+        expect(field).to_have_value("320")
+    editor.page.bring_to_front()
+    editor.expect(f"{degrees(asin(320 / 420)):.3f}°")
+    first.fill("300")
+    first.press("Enter")
+    editor.expect(f"{degrees(asin(300 / 420)):.3f}°")
+
+
 def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     page = editor.page
 

@@ -8,6 +8,7 @@
   const SHOWN = ".ms-line, [data-line]";
   const later = () => new Promise((then) => setTimeout(then, TAKEN));
   const AGAIN = "the page was being computed anew meanwhile: once more";
+  const READS = "another tab edits this worksheet: Take over, at the top, brings it here";
   const LEFT = "Enter writes this line, Esc leaves it as it was";
   let waiting; // the question that has no answer yet
   let last = Promise.resolve();
@@ -35,6 +36,7 @@
   function answerTo(what) {
     const area = document.querySelector("ms-in-place + * marimo-text-area")?.shadowRoot?.querySelector("textarea");
     if (!area) return { why: AGAIN };
+    if (document.querySelector(".sticky .lucide-eye")) return { why: READS }; // its fields tell nothing
     const number = ++count;
     Object.getOwnPropertyDescriptor(HTMLTextAreaElement.prototype, "value").set.call(
       area,

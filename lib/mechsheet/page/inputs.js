@@ -12,8 +12,16 @@
   // The element beside the fields tells of all that have changed; of each alone marimo would keep the last, and lose
   // what was typed before it while the page computed.
   const alone = ({ objectId }) => document.querySelector(`td[data-input] marimo-ui-element[object-id="${CSS.escape(objectId)}"]`);
+  // A second tab of an editor reads: what is typed there would be computed beside the fields of the first.
+  const reads = () => document.querySelector(".sticky .lucide-eye");
   const hear = (event) => {
     const field = alone(event.detail);
+    if (reads()) {
+      event.stopImmediatePropagation();
+      const name = field?.closest("td").dataset.input;
+      if (!unheard.delete(name) && field) setTimeout(() => eachBar((bar) => bar.follow())); // not by the page itself
+      return;
+    }
     if (!field) return;
     const name = field.closest("td").dataset.input;
     unheard.delete(name);
@@ -171,7 +179,7 @@
     follow() {
       const now = textsNow();
       const first = at < 0;
-      if (asked && arrived()) {
+      if (asked && (reads() || arrived())) {
         asked = undefined;
         unheard.clear();
       }
@@ -187,7 +195,8 @@
     resume(tries = 100) {
       if (tries && !fields.every(({ name }) => fieldOf(name))) return setTimeout(() => this.resume(tries - 1), 100);
       fields.forEach(({ name }) => ((fieldOf(name) ?? {}).ariaLabel = called(name))); // which a screen reader says
-      const anew = fields.filter(({ name }) => !moved.has(name) && fieldOf(name) && words(name) === begun(name));
+      const isAnew = (name) => reads() || (!moved.has(name) && words(name) === begun(name));
+      const anew = fields.filter(({ name }) => fieldOf(name) && isAnew(name));
       const stale = anew.filter(({ name, said, text }) => ![said, text].includes(words(name)));
       if (!stale.length) return;
       stale.forEach(({ name }) => unheard.add(name));
