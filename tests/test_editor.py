@@ -303,7 +303,7 @@ def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
 
 
 def test_a_second_tab_shows_what_the_first_computes_with(editor, browser):
-    """Its fields kept what they were given first, and what was typed there was computed beside the fields of the first."""
+    """Its fields kept what they had first, and what was typed there was computed beside the fields of the first."""
     name = "Mmax, N·m, greatest moment> 0"
     first = editor.page.get_by_role("textbox", name=name)
     with new_page(browser) as second:

@@ -2,8 +2,10 @@
 
 import subprocess
 import sys
+from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from as_script import as_file, as_script, copied
@@ -13,6 +15,7 @@ from openpyxl import load_workbook
 from playwright.sync_api import expect
 
 from mechsheet import __main__ as launcher
+from mechsheet.page import messages
 from mechsheet.recording.dimensions import mismatches
 
 EXAMPLES = Path(launcher.__file__).parents[2] / "worksheets" / "examples"
@@ -99,6 +102,22 @@ def test_a_page_whose_server_was_started_anew_says_so(lever, serve, page):
     told.get_by_role("button", name="load again").click()
     page.get_by_text("2 of 2 checks pass").wait_for()
     expect(told).to_have_count(0)
+
+
+def test_what_such_a_page_has_begun_is_closed():
+    """The editor's page that was loaded again was given a session of which nothing is computed: code alone."""
+    closed = []
+    sessions = SimpleNamespace(skew_protection_token="new", close_session=closed.append)
+    app = SimpleNamespace(state=SimpleNamespace(session_manager=sessions))
+
+    async def answer(*of):
+        pass
+
+    for token in ("old", "new"):
+        headers = [(b"marimo-server-token", token.encode()), (b"marimo-session-id", f"s_{token}".encode())]
+        with suppress(StopIteration):  # nothing is waited for
+            messages.Fewer(answer)({"type": "http", "app": app, "headers": headers}, answer, answer).send(None)
+    assert closed == ["s_old"]
 
 
 def test_elements_that_are_made_anew_take_their_attributes(lever, serve, page):

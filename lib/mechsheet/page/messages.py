@@ -21,12 +21,17 @@ _FIELDS_OF = re.compile(r"object-id=\W{0,6}(\w+)-")
 
 
 class Fewer:
-    """Middleware that keeps back what a served page need not be told; in the editor all is told."""
+    """Middleware that keeps back what a served page need not be told; in the editor all is told.
+
+    And all that a page of a server before this one has begun.
+    """
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http":
+            notebook.leave(scope)
         if scope["type"] != "websocket" or not notebook.is_served(scope["app"]):
             await self._app(scope, receive, send)
             return

@@ -219,6 +219,17 @@ def is_served(server: Any) -> bool:
         return False
 
 
+def leave(scope: Any) -> None:
+    """Close the session which a page of a server before this one opens here, by a request of it.
+
+    Nothing of it is ever computed, for such a page is refused all else, and the page that is loaded again was given it.
+    """
+    with suppress(AttributeError, KeyError):
+        sessions, told = scope["app"].state.session_manager, dict(scope["headers"])
+        if told[b"marimo-server-token"].decode() != str(sessions.skew_protection_token):
+            sessions.close_session(told[b"marimo-session-id"].decode())
+
+
 def send_as_it_is(server: Any) -> None:
     """Let a server that only this machine can reach not pack what it sends: that takes longer than sending it."""
     with suppress(AttributeError):
