@@ -152,6 +152,11 @@ def test_another_file_is_given_by_a_scene_beside_it(engine: Path, tmp_path: Path
         ("V [cm];p\n100;1\n", "row 2, column V: volume gas.V (1) = '100 cm': cm does not measure cm³"),
         ("V [parsec**3];p\n100;1\n", "row 2, column V: "),
         ("", "is empty"),
+        ("V;p\n100;1\n#N/A;2\n", "row 3, column V: volume gas.V (2) = '#N/A' cm³ is no number: fill it"),
+        ("V [-];p\n100;1\n", "row 1, column V: - does not measure cm³"),
+        ("V;p\n100,5;1.250\n", "row 2, column p: 1.250 may be 1250 or 1.250: write it without a sign between"),
+        ('V,p\n"1,250",1\n', "row 2, column V: 1,250 may be 1250 or 1.250: write it"),
+        ('V,p\n"1,250",2.5\n', "row 2, column V: 1,250 may be 1250 or 1.250: write it"),
     ],
 )
 def test_what_cannot_be_used_is_one_line_with_its_place(engine: Path, text: str, message: str) -> None:
@@ -161,6 +166,39 @@ def test_what_cannot_be_used_is_one_line_with_its_place(engine: Path, text: str,
     assert str(error.value).startswith(f"file {engine.parent / 'bad.csv'}") and message in str(error.value)
     assert "fill it" not in str(error.value) or "fill it" in message
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "V;p\n100;20\n200;10,5\n400;4\n;;\n;\n",  # empty rows, as spreadsheet programs write them below the last
+        "V;p\n100,000;20\n200,000;10,5\n400,000;4\n",  # three decimals among others with a comma
+        "V;p\n100.000;20.000\n200.000;10.500\n400.000;4.000\n",
+        'V,p\n100,20\n200,"10,5"\n400,4\n',
+    ],
+)
+def test_cells_as_programs_write_them(engine: Path, text: str) -> None:
+    (engine.parent / "other.csv").write_text(text, encoding="utf-8")
+    assert evaluate(engine, ["W"], gas="other.csv")["W"] == pytest.approx(WORK, rel=1e-14)
+
+
+def test_per_cent_are_read_as_they_are_shown(engine: Path) -> None:
+    """A cell that shows 85 % holds 0.85, which was taken for 0.85 %; so was 0.85 under a head that says [-]."""
+    sheet = engine.with_name("share.py")
+    text = SHEET.replace("p: float  # [bar]", "p: float  # [%]").replace("gas.csv", "own.csv")
+    engine.with_name("own.csv").write_text("V;p\n1;1\n2;2\n", encoding="utf-8")
+    sheet.write_text(text.replace("[J] work", "[cm**3] work").replace("p = g.gas.p  # [bar]", "p = g.gas.p  # [%]"))
+    for head in ("p [%]", "p"):
+        book = Workbook()
+        for row in (["V", head], [100, 0.85], [300, 0.85]):
+            book.active.append(row)
+        for cell in ("B2", "B3"):
+            book.active[cell].number_format = "0.0%"
+        book.save(engine.with_name("share.xlsx"))
+        assert evaluate(sheet, ["p"], gas="share.xlsx")["p"].tolist() == [0.85, 0.85]
+    for cells in ("p [%]\n100;85%\n300;85 %\n", "p [-]\n100;0,85\n300;0.85\n"):
+        engine.with_name("share.csv").write_text(f"V;{cells}", encoding="utf-8")
+        assert evaluate(sheet, ["p"], gas="share.csv")["p"].tolist() == [0.85, 0.85]
 
 
 @pytest.mark.parametrize(

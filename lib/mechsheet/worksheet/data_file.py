@@ -1,21 +1,28 @@
 """Columns of numbers in a file beside a worksheet: CSV as spreadsheet programs write it, or a workbook's first sheet.
 
 The first row has the names of the columns, each with its unit behind it: ``phi [deg]; p [MPa]``. CSV is apart by
-``;``, tabs or commas, whichever the first row has; lines that begin with # and empty ones are passed over.
+``;``, tabs or commas, whichever the first row has; lines that begin with # and empty ones are passed over. A number of
+which it cannot be told whether its sign stands before decimals or between thousands is refused.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mechsheet.units import conversion
+from mechsheet.worksheet import numbers
 from mechsheet.worksheet.errors import SheetError, cut
+from mechsheet.worksheet.kinds import number
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
 _HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
 _NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)
+_EMPTY = ' \t;,"'  # all that a row of empty cells has, as spreadsheet programs write those below the last number
+_ERROR = re.compile(r"#(?:N/A|NV|Н/Д|\S+[!?])")  # as spreadsheet programs write it: no remark
+_SIGNED = re.compile(r"\W?(\d+)([.,])(\d+)(?![\d.,])")
 _MOST = 100_000  # rows that are looked at
 
 
@@ -58,12 +65,12 @@ class Columns(NamedTuple):
     rows: tuple[int, ...]
 
 
-def columns(path: Path, wanted: Iterable[str]) -> Columns:
-    """The wanted columns of a file; others are passed over.
+def columns(path: Path, wanted: Mapping[str, str | None]) -> Columns:
+    """The wanted columns of a file, each of numbers with its unit, of texts with none; others are passed over.
 
     Raises SheetError naming the file, and the row and column of what cannot be used.
     """
-    rows = _book(path) if path.suffix.lower() == ".xlsx" else _text(path)
+    rows, apart = (_book(path), "") if path.suffix.lower() == ".xlsx" else _text(path)
     if not rows:
         raise SheetError(f"file {path} is empty")
     (first, heads), *body = rows
@@ -77,22 +84,53 @@ def columns(path: Path, wanted: Iterable[str]) -> Columns:
     for name in wanted:
         if name not in at:
             raise SheetError(f"file {path}, row {first}: no column {name}; it has {cut(', '.join(at)) or 'no names'}")
-    for number, cells in body:
+    for n, cells in body:
         if len(cells) > len(heads) and any(str(cell).strip() for cell in cells[len(heads) :]):
-            raise SheetError(f"file {path}, row {number}: {len(cells)} values under {len(heads)} names of columns")
-    found = {
-        name: [_with_unit(cells[at[name]] if at[name] < len(cells) else "", units[name]) for _, cells in body]
-        for name in wanted
-    }
-    return Columns(path, found, tuple(number for number, _ in body))
+            raise SheetError(f"file {path}, row {n}: {len(cells)} values under {len(heads)} names of columns")
+    given = {name: [cells[at[name]] if at[name] < len(cells) else "" for _, cells in body] for name in wanted}
+    numbers_of = {name: cells for name, cells in given.items() if wanted[name] is not None}
+    _of_one_sign(path, numbers_of, [n for n, _ in body], apart)
+    for name, cells in numbers_of.items():
+        try:
+            pure = units[name] == "-" != wanted[name] and conversion("-", wanted[name] or "-")
+        except ValueError as error:
+            raise SheetError(f"file {path}, row {first}, column {name}: {error}") from None
+        given[name] = [_scaled(cell, pure) if pure else _with_unit(cell, units[name]) for cell in cells]
+    return Columns(path, given, tuple(n for n, _ in body))
+
+
+def _of_one_sign(path: Path, given: Mapping[str, list[Any]], rows: list[int], apart: str) -> None:
+    """Refuse 12.500 in a file of decimal commas, and "1,234" among numbers apart by commas: it may be thousands."""
+    decimal, unsure = set[str](), dict[str, tuple[int, str, str]]()
+    for name, cells in given.items():
+        for row, cell in zip(rows, cells, strict=True):
+            if not isinstance(cell, str) or not (match := _SIGNED.match(cell.strip())):
+                continue
+            if len(match[3]) == 3 and len(match[1]) <= 3 and match[1][0] != "0":
+                unsure.setdefault(match[2], (row, name, cell.strip()))
+            else:
+                decimal.add(match[2])
+    for sign, (row, name, cell) in unsure.items():
+        if sign not in decimal and (decimal or len(unsure) > 1 or sign == apart):
+            readings = f"{cell.replace(sign, '')} or {cell.replace(sign, '.')}"
+            remedy = "write it without a sign between thousands"
+            raise SheetError(f"file {path}, row {row}, column {name}: {cell} may be {readings}: {remedy}")
 
 
 def _with_unit(cell: Any, unit: str) -> Any:
-    own = re.search(r"[^\W\d_]", re.sub(r"[eE][+-]?\d", "", str(cell)))
+    own = re.search(r"[^\W\d_]|[%°]", re.sub(r"[eE][+-]?\d", "", str(cell)))
     return f"{cell} {unit}" if unit not in ("", "-") and not own and str(cell).strip() else cell
 
 
-def _text(path: Path) -> list[tuple[int, list[Any]]]:
+def _scaled(cell: Any, ratio: float) -> Any:
+    """A number without a unit in that of its column, as 0.85 in per cent; what is no such number as it is."""
+    try:
+        return float(numbers.significant(number(cell) * ratio, 15))
+    except ValueError:
+        return cell
+
+
+def _text(path: Path) -> tuple[list[tuple[int, list[Any]]], str]:
     import csv  # on use: most worksheets read no file
 
     try:
@@ -101,9 +139,12 @@ def _text(path: Path) -> list[tuple[int, list[Any]]]:
         raise SheetError(f"file {path} cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError:
         raise SheetError(f"file {path} is no text in UTF-8") from None
-    lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
+    numbered = enumerate(text.splitlines(), 1)
+    lines = [
+        (n, line) for n, line in numbered if line.strip(_EMPTY) and (not line.startswith("#") or _ERROR.match(line))
+    ]
     apart = next((mark for mark in ";\t" if lines and mark in lines[0][1]), ",")
-    return [(n, next(csv.reader([line], delimiter=apart))) for n, line in lines[:_MOST]]
+    return [(n, next(csv.reader([line], delimiter=apart))) for n, line in lines[:_MOST]], apart
 
 
 def _book(path: Path) -> list[tuple[int, list[Any]]]:
@@ -114,11 +155,18 @@ def _book(path: Path) -> list[tuple[int, list[Any]]]:
             book = load_workbook(file, read_only=True, data_only=True)
             sheet = book.worksheets[0]
             sheet.reset_dimensions()
-            rows = enumerate(sheet.iter_rows(max_row=_MOST, max_col=100, values_only=True), 1)
-            kept = [(n, ["" if cell is None else cell for cell in row]) for n, row in rows]
+            rows = enumerate(sheet.iter_rows(max_row=_MOST, max_col=100), 1)
+            kept = [(n, [_as_shown(cell.value, cell.number_format) for cell in row]) for n, row in rows]
     except OSError as error:
         raise SheetError(f"file {path} cannot be read: {error.strerror or error}") from None
     except Exception as error:  # of a file that is damaged, in as many ways as it can be
         words = " ".join(str(error).split()) or type(error).__name__
         raise SheetError(f"file {path} is no Excel workbook, or damaged: {cut(words)}") from None
     return [(n, row) for n, row in kept if any(str(cell).strip() for cell in row)]
+
+
+def _as_shown(value: Any, form: str | None) -> Any:
+    """The value of a cell, of which a spreadsheet program may show per cent: 0.85 as 85 %."""
+    if isinstance(value, int | float) and not isinstance(value, bool) and form and form.rstrip("_ )").endswith("%"):
+        return f"{numbers.significant(100 * value, 15)} %"
+    return "" if value is None else value

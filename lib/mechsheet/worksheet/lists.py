@@ -63,7 +63,8 @@ class Rows(Input):
         """Columns of a file, by their names in it."""
         beside = Path(self.folder) / path
         short = {c.name.rpartition(".")[2]: c for c in self.columns}
-        file = data_file.columns(path if path.is_file() else beside, short)
+        wanted = {name: None if column.is_text else column.unit for name, column in short.items()}
+        file = data_file.columns(path if path.is_file() else beside, wanted)
         found = dict[str, NDArray[Any]]()
         for name, column in short.items():
             for k, cell in enumerate(file.cells[name]):
