@@ -333,7 +333,6 @@ def typed(exported: Path, to: Path, changes: dict[tuple[str, int], object]) -> P
         ({("F", 2): None}, {"F": [10, 2.5]}),
         ({("stringers.A", 5): 1, ("stringers.y", 5): -2, ("stringers.y_top", 5): 30},
          {"stringers": [(1, 25, 30), (0.5, -25, 30), (1, -2, 30)]}),
-        ({("F", -1): "other"}, {}),
         ({("F", -3): "F", ("F", 1): 12}, {"F": [12, -4, 2.5]}),  # meant as it is called, or as another one is
         ({("F", -3): "stringers.A", ("stringers.A", -3): "F", ("F", 1): 12}, {"F": [12, -4, 2.5]}),
     ],
@@ -358,6 +357,7 @@ def test_rows_and_units_of_input_tables_are_read_as_they_are_typed(
         ({("stringers.y", 2): None}, "cell E9: stringers.y (2): the value is missing"),
         ({("stringers.y", -1): "y"}, "stringers of the section stringers must have the columns A, y, y_top; it has"),
         ({("stringers.y", -1): "stringers.A"}, "cell E6: stringers.A stands in D6 already"),
+        ({("F", -1): "forces", ("F", 1): 12}, "sheet Input tables has no column F: give it its name back, or delete"),
     ],
 )
 def test_what_cannot_be_read_of_input_tables_is_told_at_its_cell(
@@ -367,6 +367,21 @@ def test_what_cannot_be_read_of_input_tables_is_told_at_its_cell(
     with pytest.raises(SheetError) as error:
         reading.inputs(path, inputs.declared(load(section).inputs))
     assert message in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_sheet_of_tables_with_another_name_is_missed(exported: Path, section: Path, tmp_path: Path) -> None:
+    """What was typed there was left out of the scene without a word; a table whose row is gone too is meant so."""
+    declared, path = inputs.declared(load(section).inputs), tmp_path / "typed.xlsx"
+    book = load_workbook(exported)
+    book["Input tables"].title = "Lasten"
+    book.save(path)
+    with pytest.raises(SheetError, match=r"typed\.xlsx has no sheet Input tables: give it its name back"):
+        reading.inputs(path, declared)
+    told = {row[0].value: row[0] for row in book["Inputs"].iter_rows(min_row=3)}
+    for name in ("F", "stringers"):
+        told[name].value = None
+    book.save(path)
+    assert not {"F", "stringers"} & reading.inputs(path, declared).keys()
 
 
 def test_the_sheet_of_the_inputs_tells_where_its_tables_are(exported: Path, section: Path, tmp_path: Path) -> None:

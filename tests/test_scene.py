@@ -135,6 +135,12 @@ def test_another_encoding_is_told(tmp_path, encoding):
         arguments.read([f"--scene={file}"], FIELDS)
 
 
+def test_a_spreadsheet_of_another_kind_is_told_as_one(tmp_path):
+    (tmp_path / "hitch.ods").write_bytes(b"PK\x03\x04\xff")
+    with pytest.raises(SheetError, match=r"hitch\.ods is a spreadsheet that cannot be read: save it as \.xlsx"):
+        arguments.read([f"--scene={tmp_path / 'hitch.ods'}"], FIELDS)
+
+
 @pytest.mark.parametrize("name", ["none.toml", "none.xlsx"])
 def test_missing_scene_file_is_named(tmp_path, name):
     with pytest.raises(SheetError, match=rf"{name} cannot be read: No such file"):
@@ -239,6 +245,20 @@ def test_what_cannot_be_used_is_named_with_its_cell(edit, name, heading, typed, 
         edit.read()
     start = f"workbook {edit.path}, cell {cell.coordinate}: "
     assert str(error.value).startswith(start + message), str(error.value)
+
+
+def test_a_number_shown_in_per_cent_is_no_other_one_without_a_word(edit):
+    """A spreadsheet program shows 85% for what is typed so in a cell of its own format, and holds 0.85."""
+    assert edit.cell("P6", "Value").number_format != "General"  # which would be made per cent by what is typed
+    for name, unit in (("P6", "N"), ("eta", "-")):
+        cell = edit.cell(name, "Value")
+        cell.value, cell.number_format = 0.85, "0.00%"
+        if unit == "-":
+            assert edit.read()[name] == 0.85
+        else:
+            with pytest.raises(SheetError, match=rf"{cell.coordinate}: .*P6 = 0.85 N is shown as 85 %: type 85"):
+                edit.read()
+            cell.number_format = "General"
 
 
 @pytest.mark.parametrize(("value", "unit"), [(27.5, "kN"), ("27,5 kN", "N"), ("27.5 kN", None), (2.75, "MN*cm/m")])

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mechsheet.worksheet import scene as scenes
 from mechsheet.worksheet.cells import base
-from mechsheet.worksheet.data_file import ENDINGS
+from mechsheet.worksheet.data_file import ENDINGS, OTHER_SPREADSHEETS
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import known
 from mechsheet.worksheet.kinds import Input
@@ -99,6 +99,8 @@ def load(path: Path, declared: Sequence[Input]) -> Scene:
         from mechsheet.workbook import reading  # on use: openpyxl takes a third of a second
 
         return Scene(reading.inputs(path, declared))
+    if path.suffix.lower() in OTHER_SPREADSHEETS and path.is_file():
+        raise SheetError(f"scene {path} is a spreadsheet that cannot be read: save it as .xlsx")
     scene, lists = scenes.load(path), _lists(declared)
     for name, value in scene.inputs.items():
         if isinstance(value, dict | list) and name not in lists:

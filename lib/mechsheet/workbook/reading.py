@@ -17,6 +17,7 @@ from mechsheet.units import shown
 from mechsheet.worksheet.errors import SheetError, cut, nearest
 from mechsheet.worksheet.kinds import Choice, Input
 from mechsheet.worksheet.lists import Rows
+from mechsheet.worksheet.numbers import significant
 
 _SHEET = "Inputs"
 _TABLES = "Input tables"
@@ -29,6 +30,10 @@ _EMPTY = 10_000  # empty rows, one after the other, that are passed over: a shee
 _Row = tuple[int, tuple[Any, ...]]  # number of a row and the values of its cells
 
 
+class _PerCent(float):
+    """A number that its cell shows in per cent: 0.85 as 85%."""
+
+
 def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
     """Inputs by name, in display units, of the sheets Inputs and Input tables.
 
@@ -36,14 +41,23 @@ def inputs(path: Path, declared: Sequence[Input]) -> dict[str, object]:
     a number, a text such as ``0,415``, or a formula that the spreadsheet program has computed. Rows of Inputs are read
     up to the first empty one behind the last input, those of a table as far as it has some.
 
-    Raises SheetError naming the file, the cell and what it holds where that cannot be used.
+    Raises SheetError naming the file, the cell and what it holds where that cannot be used, and the list or table that
+    Inputs has a row for and that is not there.
     """
     tables = [field for field in declared if isinstance(field, Rows)]
     fields = {field.name: field for field in declared if not isinstance(field, Rows)}
     with _book(path, values=True) as book:
-        found = _listed(path, _rows(path, book, _SHEET), fields, {t.name for t in tables}, _properties(declared))
+        told = dict.fromkeys((table.name for table in tables), False)
+        found = _listed(path, _rows(path, book, _SHEET), fields, told, _properties(declared))
         if tables and _TABLES in book.sheetnames:
             found |= _of_tables(path, _rows(path, book, _TABLES), tables)
+        missing = next((name for name, is_told in told.items() if is_told and name not in found), None)
+        if missing is not None:
+            at, named = (
+                (f", sheet {_TABLES}", f"column {missing}") if _TABLES in book.sheetnames else ("", f"sheet {_TABLES}")
+            )
+            remedy = f"give it its name back, or delete the row of {missing} on the sheet {_SHEET}"
+            raise SheetError(f"workbook {path}{at} has no {named}: {remedy} to keep what the worksheet has")
     return found
 
 
@@ -63,16 +77,21 @@ def _listed(
     path: Path,
     rows: Iterator[_Row],
     fields: Mapping[str, Input],
-    tables: Container[str],
+    tables: dict[str, bool],
     properties: Mapping[str, tuple[Input, Any]],
 ) -> dict[str, object]:
-    """Inputs of the sheet Inputs, one a row; the ``properties`` of options must be those of the worksheet."""
+    """Inputs of the sheet Inputs, one a row; the ``properties`` of options must be those of the worksheet.
+
+    Which of the ``tables`` have a row there is put down.
+    """
     found, places = dict[str, object](), dict[str, str]()
     columns = _columns(path, rows)
     for number, row in rows:
         symbol, value, unit = (row[column] for column in columns)
         at = [f"{get_column_letter(column + 1)}{number}" for column in columns]
         name = _text(symbol)
+        if value is None and name in tables:
+            tables[name] = True
         if value is None and (not name or (name not in fields and not _text(unit))):
             if len(found) == len(fields) and not name:
                 break
@@ -183,6 +202,11 @@ def _read(field: Input, value: object, unit: str, cell: _Cell, unit_cell: _Cell)
         formula = cell.formula()
         holds = f"the formula {cut(formula)} has no value; open and save the file in the spreadsheet program"
         raise SheetError(f"{cell}: {field.name}: {holds if formula else 'the value is missing'}")
+    if isinstance(value, _PerCent) and field.unit != "-" and not field.is_text:
+        x = significant(100 * value, 15)
+        raise SheetError(
+            f"{cell}: {field.says(significant(value, 15))} is shown as {x} %: type {x}, for its unit stands beside it"
+        )
     try:
         field.read(value)
     except SheetError as error:
@@ -236,7 +260,8 @@ def _rows(path: Path, book: Any, name: str) -> Iterator[_Row]:
     """Rows of a sheet that hold something, and the empty ones between them."""
     sheet, last = book[name], 0
     sheet.reset_dimensions()  # a file may tell others than it has
-    for number, row in enumerate(sheet.iter_rows(max_col=_COLUMNS[name], values_only=True), 1):
+    for number, cells in enumerate(sheet.iter_rows(max_col=_COLUMNS[name]), 1):
+        row = tuple(map(_held, cells))
         if any(value is not None for value in row):
             last = number
         elif number - last > _EMPTY:
@@ -244,6 +269,12 @@ def _rows(path: Path, book: Any, name: str) -> Iterator[_Row]:
                 f"workbook {path}, sheet {name}: over {_EMPTY} empty rows from row {last + 1}; delete them"
             )
         yield number, row
+
+
+def _held(cell: Any) -> Any:
+    """The value of a cell; a number that is shown in per cent is marked."""
+    value, form = cell.value, cell.number_format
+    return _PerCent(value) if type(value) in (int, float) and form and form.endswith("%") else value
 
 
 def _text(value: object) -> str:

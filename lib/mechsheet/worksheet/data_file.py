@@ -17,6 +17,7 @@ from mechsheet.worksheet.errors import SheetError, cut
 from mechsheet.worksheet.kinds import number
 
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
+OTHER_SPREADSHEETS = (".ods", ".xls", ".xlsm", ".xlsb", ".numbers")  # of which none is read
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
 _HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
 _NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)

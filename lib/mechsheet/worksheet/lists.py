@@ -41,6 +41,9 @@ class Rows(Input):
         """
         if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
             return self.of_file(Path(value.strip()))
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.OTHER_SPREADSHEETS):
+            told = f"{self.meaning} {self.name} = {errors.as_given(value)} cannot be read: save it as .csv or .xlsx"
+            raise SheetError(told, self.name)
         given = self._columns(value)
         count = {len(xs) for xs in given.values()}
         if len(count) > 1:
