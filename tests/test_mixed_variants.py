@@ -34,6 +34,8 @@ MIXED = {  # which is the same for each of the first variants, and of few of the
     "from scipy.optimize import brentq\ny = brentq(lambda v: v - max((g.F * np.arange(1.0, 5.0)).max(), 9.0), 0, 50)",
     "from mechsheet import find as f\nu = g.F * np.arange(1.0, 5.0)\ny = f(lambda v: v - max(u.max(), 9), 0, 50).value",
     "import numpy\ny = np.maximum(numpy.array([(g.F * np.arange(1.0, 5.0)).max(), 1.0])[0], 9.0)",
+    "from mechsheet import angle\ny = 2.0 if np.any(angle(1 + 1j * g.F * np.arange(1.0, 5.0)) > np.arctan(9)) else 1.0",
+    "from mechsheet import RRRGroup as R\ny = max(R(0, g.F * np.arange(1.0, 5.0), 20.0, 20.0, 1).C.real.max(), 4.5)",
     "f = lambda v: 3.0 if (v < 1).all() else 1.0\ny = f(np.maximum(g.F - 2.2, 0.5) * np.arange(1.0, 3.0) / 2.0)",
 }
 
@@ -47,6 +49,14 @@ def test_a_variant_has_its_own_number_whatever_others_have(lines: str, tmp_path:
         swept = sweep(sheet.path, ["result"], {"F": F})
         alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F]
         assert swept["result"] == pytest.approx(alone, rel=1e-12, abs=1e-12)
+
+
+def test_what_holds_of_one_number_says_nothing_of_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """After a sweep with one value that can be used, all variants of the next one had the greatest of them all."""
+    monkeypatch.setattr("mechsheet.studies.sweep.mixes", lambda *_: False)  # as of what it cannot follow
+    sheet = own(tmp_path, "result = np.max(g.F * np.arange(4))  # [-] line")
+    assert sweep(sheet.path, ["result"], {"F": [1.0, np.nan]})["result"][0] == 3.0
+    assert sweep(sheet.path, ["result"], {"F": [1.0, 2.0]})["result"].tolist() == [3.0, 6.0]
 
 
 def test_variants_of_which_none_is_solved_alone_have_no_number_among_others(tmp_path: Path) -> None:

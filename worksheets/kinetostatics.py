@@ -51,12 +51,12 @@ def title():
 
 @app.cell(hide_code=True)
 def verdict(
-    checks_23, checks_45, checks_67, checks_bodies, checks_closing, checks_dense, checks_directions, checks_drive,
-    checks_gear, checks_work,
+    check_dead, checks_23, checks_45, checks_67, checks_bodies, checks_closing, checks_dense, checks_directions,
+    checks_drive, checks_gear, checks_work,
 ):  # fmt: skip
     summary(
         *(checks_closing, checks_45, checks_67, checks_23, checks_directions, checks_gear, checks_drive),
-        *(checks_bodies, checks_work, checks_dense),
+        *(check_dead, checks_bodies, checks_work, checks_dense),
     )
     return
 
@@ -1006,10 +1006,19 @@ def section_9():
 
 
 @app.cell
+def dead_centres(R_A, R_D, R_K):
+    _lost = ~isfinite(R_A + R_D + R_K)
+    _first = f"first at phi1 = {np.argmax(_lost)} deg" if np.any(_lost) else ""
+    check_dead = Check("no position is a dead centre", np.count_nonzero(_lost), 0, "positions", _first, essential=True)
+    typeset(check_dead)
+    return (check_dead,)
+
+
+@app.cell
 def reactions(
     A, B, C, D, E, F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum, H, K, M1, M2, M4, M6, M7, M_b, M_in3, O1,
-    R03, R05, R07, R12, R23, R43, R45, R63, R76, R_A, R_D, R_K, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05,
-    gamma07, gamma12, gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, largest, lost, u5,
+    R03, R05, R07, R12, R23, R43, R45, R63, R76, R_O1c, S1, S2, S3, S4, S6, S7, gamma03, gamma05, gamma07, gamma12,
+    gamma23, gamma45, gamma76, gamma_O1c, group_67, h76, largest, lost, u5,
 ):  # fmt: skip
     R12_v = R12 * exp(1j * gamma12)  # [N] crank 1 on the rod 2
     R23_v = R23 * exp(1j * gamma23)  # [N] rod 2 on the rocker 3
@@ -1036,16 +1045,11 @@ def reactions(
     _forces = F1_sum, F2_sum, F3_own, F4_sum, F5_sum, F6_sum, F7_sum
     _loads = zip(_forces, (S1, S2, S3, S4, E, S6, S7), (M1, M2, M_in3, M4, 0, M6, M7), strict=True)
     loads = [[Load(*load)] for load in _loads]  # on the bodies 1..7: force, its point, moment
-    _lost = ~isfinite(R_A + R_D + R_K)
-    _first = f"first at phi1 = {np.argmax(_lost)} deg" if np.any(_lost) else ""
     longest = largest_of(A - O1, B - C, A - B, D - E, H - K)
     M_max = largest * longest
-    checks_bodies = (
-        Check("no position is a dead centre", np.count_nonzero(_lost), 0, "positions", _first, essential=True),
-        *balance("bodies 1..7", loads, reactions, lost, largest, longest),
-    )
+    checks_bodies = balance("bodies 1..7", loads, reactions, lost, largest, longest)
     typeset(*checks_bodies)
-    return checks_bodies, M_max, loads, reactions
+    return M_max, checks_bodies, loads, reactions
 
 
 @app.cell

@@ -157,12 +157,17 @@ def _not_infinite(x: Numbers, name: str) -> Numbers:
 
 
 def unmasked(value: ArrayLike, kind: type | None = None) -> NDArray[Any]:
-    """The array of a value: NaN where it is masked, for what stands under a mask is no number of anything."""
+    """The array of a value: NaN where it is masked, for what stands under a mask is no number of anything.
+
+    An array of another class stays one of it, but for a matrix, whose product is another one.
+    """
     x: NDArray[Any] = np.asarray(value, kind)
     if x is value or not isinstance(value, np.ndarray) or x.dtype.kind not in "iufc":
         return x
     masked = getattr(value, "mask", None)  # numpy loads its masked arrays where they are asked for by name
-    return x if masked is None else np.where(masked, np.nan, x)
+    if masked is not None:
+        return np.where(masked, np.nan, x)
+    return x if isinstance(value, np.matrix) else np.asanyarray(value, kind)
 
 
 def _numbers(value: ArrayLike, name: str, kinds: str) -> NDArray[Any]:

@@ -70,9 +70,7 @@ def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
     np.complex128(1+7j)
     """
     p, q, z = reals(p, "p"), reals(q, "q"), vector(z, "z")
-    real = p * z.real - q * z.imag
-    found = np.empty(real.shape, np.complex128)
-    found.real = real
+    found = np.asanyarray(p * z.real - q * z.imag, np.complex128)
     found.imag = p * z.imag + q * z.real
     return found[()]
 

@@ -195,12 +195,12 @@ def _asking(held: Any, path: str) -> Any:
 
 
 def _unmixed(given: Any) -> Any:
-    """What a Find is given, or a function of it gives, which is not mixed."""
+    """What a Find is given, or a function of it gives, which is not mixed; it tries some of all variants."""
     if isinstance(given, FunctionType):
         return lambda *of, **how: _unmixed(given(*of, **how))
     if _is_mixed(given):
         raise _Looked
-    return given
+    return _plain(given)
 
 
 def _several(values: Any, path: str, of: Any = None, filled: bool = False) -> Any:

@@ -307,7 +307,8 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
         among = all_at_once.run(given.at(np.array(together)))
         if refused.size and not _is_refused(all_at_once, given, refused):
             return None
-        if not _apart(all_at_once, given, np.unique([*probes, *_outermost(given, rows)])):
+        compared = np.unique([*probes, *_outermost(given, rows)])
+        if not _apart(all_at_once, given, compared):
             return None
     except Exception:  # whatever a line does that cannot take an array
         return None
@@ -315,7 +316,8 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
         alone = tried[row]
         if alone and not all(alike(alone.values[name], among.values[name][[i]]) for name in job.want):
             return None
-    _taking_arrays[key] = all_at_once
+    if all((x != x[0]).any() for x in given.at(compared).values() if np.ndim(x)):  # of one value others say nothing
+        _taking_arrays[key] = all_at_once
     return all_at_once
 
 
