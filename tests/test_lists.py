@@ -223,6 +223,10 @@ def test_sweeps_vary_lists_and_tables(section: Path) -> None:
     assert limited.reasons.tolist() == ["", "forces F (1) = 10.0 kN must be < F_max = 5.0"]
     tables = sweep(section, ["A"], {"stringers": ["1; 2; 30", [[1, 2, 30], [3, 4, 30]]]})
     assert tables["A"].tolist() == pytest.approx([1e-4, 4e-4], rel=1e-14)
+    frame = sweep(
+        section, ["most"], {"F": ["1; 2,5; 3", "x"], "stringers": ["1; 2; 30 | 3; 4; 30", "1; 2; 30"]}
+    ).frame()
+    assert frame.iloc[0, 1:3].tolist() == ["1; 2.5; 3", "1; 2; 30 | 3; 4; 30"]  # each as it is read
     every = grid(F=[[1, 2], [4, 5]], stringers=["1; 2; 30", [{"A": 3, "y": 4, "y_top": 30}]], F_max=[50, 60])
     combined = sweep(section, ["most"], every)
     assert combined["most"].shape == (2, 2, 2) and combined.solved.all()

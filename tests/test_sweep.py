@@ -198,7 +198,8 @@ def test_all_variants_may_fail_for_a_reason_they_share_in_a_few_runs(monkeypatch
 
 def test_nothing_to_compute_is_no_error():
     assert np.isnan(sweep(HITCH, ["L4"], {"L5": [-1, -2]})["L4"]).all()
-    assert sweep(HITCH, ["L4"], {"L5": []})["L4"].shape == (0,)
+    none = sweep(HITCH, ["L4"], {"L5": []})
+    assert none["L4"].shape == (0,) and none.frame().empty
 
 
 @pytest.mark.parametrize(

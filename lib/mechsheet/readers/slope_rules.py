@@ -222,7 +222,9 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     if kind.startswith("nan"):
         known = ~np.isnan(x)
         x, ahead, kind = x[known], ahead[:, known], kind.removeprefix("nan")
-    if kind in ("argmax", "argmin") and not np.isnan(y) and not np.isnan(x[int(y)]):  # of equal ones the first, until one is better
+    if (
+        kind in ("argmax", "argmin") and not np.isnan(y) and not np.isnan(x[int(y)])
+    ):  # of equal ones the first, until one is better
         equal = x == x[int(y)]
         better = np.max if kind == "argmax" else np.min
         lost = better(ahead[:, equal], 1) != ahead[:, int(y)]

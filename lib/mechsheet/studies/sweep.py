@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -23,7 +24,7 @@ from mechsheet.run.silent import silently
 from mechsheet.studies.chunks import Job, Part, alike, digest, one_by_one, same_shape, varied
 from mechsheet.studies.executed import computed
 from mechsheet.studies.mixing import COUNT, mixes
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, lists
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
 from mechsheet.worksheet.table import heading
@@ -91,12 +92,14 @@ class Sweep:
         """Inputs, results and reasons as a pandas DataFrame, headings ``symbol [unit]``.
 
         A row is a variant, or a position of a variant where any result is a field; points and forces have a column
-        for each coordinate.
+        for each coordinate. A list or a table among the inputs is the text that is read as it.
         """
         import pandas as pd  # on use: takes longer than the rest of the package
 
         size = self.reasons.size
-        shown = {name: self.display(name).reshape(size, -1) for name in self.names}
+        shown = {
+            name: self.display(name).reshape(size, prod(self[name].shape[len(self.shape) :])) for name in self.names
+        }
         positions = max((values.shape[1] for values in shown.values()), default=1)
 
         for name, values in shown.items():
@@ -104,14 +107,14 @@ class Sweep:
                 raise SheetError(f"{name} has {values.shape[1]} numbers a variant, another result has {positions}")
 
         def column(values: NDArray[Any]) -> NDArray[Any]:
-            return np.broadcast_to(values.reshape(size, -1), (size, positions)).ravel()
+            return np.broadcast_to(values.reshape(size, -1 if size else 1), (size, positions)).ravel()
 
         columns = {"variant": column(np.arange(size))}
         if any(self[name].ndim > len(self.shape) for name in self.names):
             columns["position"] = np.tile(np.arange(positions), size)
         for name, values in self.inputs.items():
             label = f"g.{heading(name)}" if name in shown else heading(name)
-            columns[f"{label} [{self.input_units[name]}]"] = column(values)
+            columns[f"{label} [{self.input_units[name]}]"] = column(_as_texts(values))
         for name, values in shown.items():
             root, own = split(name)
             parts = {"real": values.real, "imag": values.imag} if np.iscomplexobj(values) else {own: values}
@@ -127,6 +130,14 @@ def known(name: str, every: Mapping[str, T], what: str) -> T:
     if name not in every:
         raise SheetError(f"{as_given(name)} is no {what}: it has {', '.join(every)}")
     return every[name]
+
+
+def _as_texts(values: NDArray[Any]) -> NDArray[Any]:
+    """Values of an input, each list or table as a text."""
+    if not any(isinstance(x, dict) for x in values.flat):
+        return values
+    texts = (lists.as_text(x) if isinstance(x, dict) else x for x in values.flat)
+    return np.fromiter(texts, object, values.size)
 
 
 def grid(**axes: ArrayLike) -> dict[str, NDArray[Any]]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from mechsheet.worksheet import data_file, errors, limits
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.numbers import significant
 
 MOST_ROWS = 10_000
 _BRIEF = 12  # rows that stand in full where all inputs are listed
@@ -242,6 +243,13 @@ class Rows(Input):
 
     def _form(self) -> str:
         return 'a list such as "1; 2,5; 3"' if self.row is None else "rows, or columns by name"
+
+
+def as_text(columns: Mapping[str, NDArray[Any]]) -> str:
+    """The text of a list, or of the rows of a table, which is read as these columns."""
+    each = ([significant(x, 15) if isinstance(x, float) else str(x) for x in xs.tolist()] for xs in columns.values())
+    rows = map("; ".join, zip(*each, strict=True))
+    return ("; " if len(columns) == 1 else " | ").join(rows)
 
 
 def _cells(text: str, width: int) -> list[list[str]]:
