@@ -251,6 +251,16 @@ def test_how_a_value_is_written_keeps_its_letters(said: str, tmp_path: Path) -> 
     assert "d_c = 7 * g.k  # [-] d_c, not %d\n" in new
 
 
+def test_the_name_of_a_file_is_no_symbol(tmp_path: Path) -> None:
+    """The worksheet could not be read any more: no file had the new name."""
+    lines = (
+        "lift = 2 * g.F  # [N] lift, of `lift.csv` and old/lift-2.XLSX\nsaid = f'{lift}: lift.csv.'\nf = 'a lift.tsv'"
+    )
+    new = renamed(path := Path(own(tmp_path, lines).path), "lift", "h", {})[path]
+    assert "h = 2 * g.F  # [N] h, of `lift.csv` and old/lift-2.XLSX\n" in new
+    assert "said = f'{h}: lift.csv.'\n" in new and "f = 'a lift.tsv'" in new
+
+
 KEYS = """
 from typing import Literal
 from mechsheet import evaluate, grid

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from mechsheet import units
 from mechsheet.worksheet import cells, inputs, mistakes
+from mechsheet.worksheet.data_file import ENDINGS
 from mechsheet.worksheet.errors import SheetError, as_given, nearest
 from mechsheet.worksheet.own_texts import own_texts
 from mechsheet.worksheet.scene import is_of
@@ -30,7 +31,7 @@ def renamed(path: Path, old: str, new: str, scenes: Mapping[Path, str]) -> dict[
 
     A symbol is an input or what a cell defines. Everything of that name follows: arguments, ``g.OLD``, keys of scenes,
     whole words of comments and texts. Attributes of other things, columns of rows and properties of options among them,
-    arguments of functions that are not the worksheet's own, units, and a field ``OLD_S`` keep theirs.
+    arguments of functions that are not the worksheet's own, units, names of files, and a field ``OLD_S`` keep theirs.
 
     Raises SheetError where OLD is no symbol, or NEW is no name or one that stands there already.
     """
@@ -203,8 +204,11 @@ def _in_words(text: str, old: str, new: str, stay: Set[int]) -> str:
     symbol, is_unit = rf"{first}{re.escape(old)}{_LAST}", units.known(old)
     if is_unit and text.strip("\"'") != old and units.known(text.strip("\"'")):
         return text
+    if not text.startswith("#") and text.rstrip("\"'").lower().endswith(_FILES):
+        return text
     in_units = [found.span() for found in re.finditer(rf"{_IN_BRACKETS}|{_BEHIND_A_NUMBER}", text) if is_unit]
     in_units += _formats(text)
+    in_units += [found.span() for found in re.finditer(_FILE, text, re.IGNORECASE)]
 
     def follow(part: str, start: int) -> str:
         def word(found: re.Match[str]) -> str:
@@ -228,6 +232,8 @@ def _formats(text: str) -> Iterator[tuple[int, int]]:
             yield found.span()
 
 
+_FILES = (*ENDINGS, ".toml", ".py", ".css")
+_FILE = rf"[\w./\\-]+(?:{'|'.join(map(re.escape, _FILES))})\b"  # which the symbol is not
 _IN_BRACKETS = r"(?<![\w\])])\[[^\]\n\"']*\]"  # and no index
 _BEHIND_A_NUMBER = r"(?:(?<![\w.])\d[\d.,]*(?:e[+-]?\d+)?|\}) ?[^\W\d]+(?:[*/·^]+-?\w+)*"
 
