@@ -48,6 +48,14 @@ def shown(page: Page, path: Path, sheet: Worksheet, address: str = "", **given: 
     return {name: (value, why) for name, (value, why) in page.evaluate(READ).items()}
 
 
+@pytest.mark.parametrize("line", ["math.pi - x", "x - np.pi", "x - units.mm", "math.pi - group.transmission_angle"])
+def test_a_sum_with_what_a_module_or_a_group_has_is_written(line: str, tmp_path: Path) -> None:
+    """There was no page: the size of it was asked for where nothing is recorded any more."""
+    lines = "from mechsheet import RRRGroup, units\ngroup = RRRGroup(0j, x, 4.0, 5.0, 1)\nd = "
+    sheet = own(tmp_path, f"{lines}{line}  # [-] knee")
+    assert "knee" in write.page(sheet, sheet.inputs())
+
+
 def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_path: Path) -> None:
     """The worksheet has no title, and does not say where its inputs stand: they stand where it reads them."""
     sheet = own(tmp_path, MASK)

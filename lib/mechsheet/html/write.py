@@ -24,7 +24,7 @@ from mechsheet.html.follow import Follower
 from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
 from mechsheet.recording.memory import names_of
-from mechsheet.recording.record import record
+from mechsheet.recording.record import continued, record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.check import LITTLE, Check, Summary, checks_of, refuse_open
@@ -107,7 +107,8 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         _cell(n, parts, sheet.cells[n], among + meant * _polar(sheet.cells[n]), follower, moving)
         for n, parts in cells.items()
     )
-    body = _linked("".join(written))
+    with continued(follower.recording):
+        body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
     told = {

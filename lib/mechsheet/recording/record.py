@@ -1,6 +1,7 @@
 """A worksheet recorded: its statements run one by one with quantities that remember what is done with them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -50,12 +51,19 @@ def record(
 def record_every_line(namespace: Mapping[str, Any], sheet: Worksheet, exact: bool = False) -> Recording:
     """The recording of what is shown, and of the lines on which nothing of that rests too."""
     run = _run(namespace, sheet, exact=exact)
-    token = current.set(run.graph)
-    try:
+    with continued(run.recording):
         add_lines(run)
+    return run.recording
+
+
+@contextmanager
+def continued(recording: Recording) -> Iterator[None]:
+    """What is computed within of recorded quantities, and of the modules of their worksheet, is recorded too."""
+    token = current.set(recording.graph)
+    try:
+        yield
     finally:
         current.reset(token)
-    return run.recording
 
 
 @np.errstate(all="ignore")  # as above
