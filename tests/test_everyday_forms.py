@@ -280,6 +280,14 @@ FOUND = (
     "found = None\nfor d in (0.5, 1.0, 2.0, 3.0):\n    w = g.F / d\n    if w > 4 or w < 0.1:\n        continue\n"
     "    if w < 1.2:\n        found = d\n        break\n"
 )
+AROUND = [  # lists and dictionaries around a function, whose elements it sets
+    "n = [0]\ndef f(v):\n    n[0] += 1\n    return v * g.a\ny = find(f, 0, 99, equals=g.F).value",
+    "h = {0: g.a}\ndef f(n):\n    if n not in h:\n        h[n] = f(n - 1) * g.F + n\n    return h[n]\ny = f(4)",
+    (
+        "def outer():\n    v = [0.0] * 3\n    def put(i, w):\n        v[i] = w\n    put(0, g.F)\n    put(1, g.a)\n"
+        "    return v\ny = outer()"
+    ),
+]
 GUARDED = [  # where other inputs change what there is
     "T = [('M6', 6), ('M10', 10)]\nname, d = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(name)",
     "T = [('M6', 6), ('M10', 10)]\nrow = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * len(row[0])",
@@ -303,7 +311,20 @@ GUARDED = [  # where other inputs change what there is
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize(
     "lines",
-    [*KEPT, *RANKED, *CHOSEN, *SET, *POLYNOMIALS, *VECTORIZED, *SEARCHED, *WALKED, *SELECTED, *PLACED, *GUARDED],
+    [
+        *KEPT,
+        *RANKED,
+        *CHOSEN,
+        *SET,
+        *POLYNOMIALS,
+        *VECTORIZED,
+        *SEARCHED,
+        *WALKED,
+        *SELECTED,
+        *PLACED,
+        *AROUND,
+        *GUARDED,
+    ],
 )
 def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")

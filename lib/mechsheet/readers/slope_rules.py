@@ -222,9 +222,8 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     if kind.startswith("nan"):
         known = ~np.isnan(x)
         x, ahead, kind = x[known], ahead[:, known], kind.removeprefix("nan")
-    if (
-        kind in ("argmax", "argmin") and not np.isnan(y) and not np.isnan(x[int(y)])
-    ):  # of equal ones the first, until one is better
+    places = kind in ("argmax", "argmin")
+    if places and not np.isnan(y) and not np.isnan(x[int(y)]):  # of equal ones the first, until one is better
         equal = x == x[int(y)]
         better = np.max if kind == "argmax" else np.min
         lost = better(ahead[:, equal], 1) != ahead[:, int(y)]
@@ -234,7 +233,7 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     if kind == "prod":
         others = [np.prod(np.delete(x, k)) for k in range(x.size)]
         return Motion(np.where(motion.moves, ahead * others, 0.0).sum(1), moves)
-    if np.isnan(y) or kind in ("argmax", "argmin"):
+    if np.isnan(y) or places:
         return Motion(np.where(moves, np.nan, 0.0), moves)
     equal = x == y
     return Motion((np.max if kind == "max" else np.min)(ahead[:, equal], 1), moves)

@@ -22,7 +22,7 @@ from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
-from mechsheet.recording.memory import Memory, may_change, names_of
+from mechsheet.recording.memory import before_ways, may_change
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -67,8 +67,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
         return (x if condition else y)(*given, **named)
     compared(condition)
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
-    own = next((f.__globals__ for f in (now, later) if isinstance(f, FunctionType)), {})
-    before = Memory([*_reached(now), *_reached(later), *given, *named.values()], own)
+    before = before_ways(now, later, *given, *named.values())
     looked, holds, both = dict(graph.looked), bool(condition.value), None
     try:
         value = on_way(condition, holds, now, *given, **named)
@@ -180,13 +179,6 @@ def _missing(value: Any) -> Any:
         return none_like(value)
     none = complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan
     return np.full(np.shape(value), none) if isinstance(value, ARRAYS) else UNBOUND
-
-
-def _reached(f: Callable[..., Any]) -> list[Any]:
-    """What a function reads, but for its arguments."""
-    if not isinstance(f, FunctionType):
-        return [f]
-    return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
 
 
 def way_may_change(f: Callable[..., Any]) -> bool:

@@ -77,6 +77,13 @@ class Memory:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = known, parts
 
+    def follow(self) -> None:
+        """Look at what the functions among the values read as well, which they may change."""
+        known = 0
+        while known < len(self.functions):
+            new, known = self.functions[known:], len(self.functions)
+            self.add(self._own[name] for f in new for name in shared_by(f.__code__) if name in self._own)
+
     def mutable(self) -> set[int]:
         """Identities of what can be changed in place."""
         return {key for key, (value, _) in self.held.items() if not _is_fixed(value)}
@@ -170,7 +177,7 @@ _EMPTY = weakref.WeakSet[Any]()  # functions that keep nothing
 
 def _kept(value: Any, own: Mapping[str, Any], within: frozenset[Any] = frozenset()) -> list[Any]:
     """What a function that is none of the worksheet's own keeps of those that were given where it was made."""
-    cells = getattr(value, "__closure__", None)
+    cells = value.__closure__ if isinstance(value, FunctionType) else None
     if not cells or value in _EMPTY or value in within:
         return []
     held = (part for cell in cells for part in _content(cell) if not _of_this(part) or isinstance(part, Quantity))
@@ -244,6 +251,36 @@ def _as_it_was(value: Any, parts: list[Any] | None) -> bool:
     if parts is None or now is None or len(parts) != len(now):
         return False
     return all(a is b or (isinstance(a, bytes) and a == b) for a, b in zip(parts, now, strict=True))
+
+
+def before_ways(now: Any, later: Any, *given: Any) -> Memory:
+    """All that two ways reach, of which the first is gone, and what is given to them.
+
+    Where a function may change something, what it reads by its name is looked at too.
+    """
+    own = _shared(now, later)
+    memory = Memory([*_read(now), *_read(later), *given], own)
+    functions = (f for f in (now, *memory.functions) if isinstance(f, FunctionType))
+    if may_change((f.__code__ for f in functions), own):
+        memory.follow()
+    return memory
+
+
+def _read(f: Any) -> list[Any]:
+    """What a function reads, but for its arguments."""
+    if not isinstance(f, FunctionType):
+        return [f]
+    return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
+
+
+def _shared(*functions: Any) -> Mapping[str, Any]:
+    """The names of the worksheet that its functions share; what stands for one of two of them calls these."""
+    for f in functions:
+        if isinstance(f, FunctionType):
+            inner = chain.from_iterable(map(_content, f.__closure__ or ()))
+            if own := _shared(*inner) if str(f.__module__).startswith("mechsheet.") else f.__globals__:
+                return own
+    return {}
 
 
 @lru_cache(maxsize=4096)

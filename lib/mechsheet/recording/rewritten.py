@@ -77,6 +77,7 @@ _KINDS = (
 class _Rewriting(ast.NodeTransformer):
     turns = 0  # of loops, one in another, that are rewritten as functions
     within: ast.FunctionDef | None = None  # the function of the worksheet's that is rewritten
+    inside: ast.FunctionDef | None = None  # that of its own functions in which the present line stands
 
     def visit_Import(self, node: ast.Import | ast.ImportFrom) -> list[ast.stmt]:
         """What an import statement binds is exchanged at once."""
@@ -203,9 +204,9 @@ class _Rewriting(ast.NodeTransformer):
             return [new for line in lines for new in _lines(self.visit(line))]
         self.generic_visit(node)
         match node.targets:
-            case [ast.Subscript(ast.Name(name), key)]:
+            case [ast.Subscript(ast.Name(name), key)] if self.binds(name):
                 return _put(node, name, key, node.value)
-            case [ast.Attribute(ast.Name(name), ("real" | "imag") as part)]:
+            case [ast.Attribute(ast.Name(name), ("real" | "imag") as part)] if self.binds(name):
                 return _bound_anew(node, name, "part", ast.Constant(part), node.value)
         return node
 
@@ -219,7 +220,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_AugAssign(self, node: ast.AugAssign) -> Any:
         self.generic_visit(node)
         match node.target:
-            case ast.Subscript(ast.Name(name), key):
+            case ast.Subscript(ast.Name(name), key) if self.binds(name):
                 old = call("element", node, ast.Name(name, ast.Load()), key)
                 return _put(node, name, key, ast.BinOp(old, node.op, node.value))
             case ast.Name(name):
@@ -232,7 +233,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def visit_If(self, node: ast.If) -> Any:
         """A statement whose ways only bind names gives the names the values of both ways."""
-        if parts := set_parts(node):
+        if (parts := set_parts(node)) and all(self.binds(ast.unparse(part.value)) for part, _ in parts):
             return [line for part in parts for line in self._put_where(node, *part)]
         ways = node.body, node.orelse
         if not all(only_bind(way, ast.Raise) for way in ways):
@@ -325,18 +326,19 @@ class _Rewriting(ast.NodeTransformer):
                         node.body = [*node.body[:n], *defined, ast.copy_location(ast.Return(chosen), line)]
                     break
         outside, self.within = self.within, self.within or node
+        around, self.inside = self.inside, self.inside if node.name.startswith("recorded ") else node
         self.generic_visit(node)
-        self.within = outside
+        self.within, self.inside = outside, around
         if not outside:
             own_arrays.marked(node, own, CALLS.keys())
         return node
 
     def binds(self, name: str) -> bool:
         """Whether a name is bound where the present line stands, in a function or in the cell."""
-        if self.within is None:
+        if self.inside is None:
             return True
-        given = {node.arg for node in ast.walk(self.within.args) if isinstance(node, ast.arg)}
-        return name in given.union(*map(bound, self.within.body))
+        given = {node.arg for node in ast.walk(self.inside.args) if isinstance(node, ast.arg)}
+        return name in given.union(*map(bound, self.inside.body))
 
     def visit_Raise(self, node: ast.Raise) -> ast.AST:
         self.generic_visit(node)
