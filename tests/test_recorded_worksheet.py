@@ -619,6 +619,19 @@ def test_recording_leaves_the_worksheet_alone(tmp_path: Path) -> None:
     assert not isinstance(evaluate(sheet.path, ["y"])["y"], Quantity)
 
 
+def test_a_recording_puts_nothing_into_lists_of_the_setup(tmp_path: Path) -> None:
+    """A worksheet that is run again found quantities in them, which no plain number is."""
+    lines = "seen.append(g.F)\nknown['all']['F'] = g.F\nbeside[0] = g.a\ny = seen[-1] + known['all']['F']  # [-] line"
+    path = Path(own(tmp_path, lines).path)
+    setup = "import math\n    seen, known = [], {'all': {}}\n    beside = known['list'] = [1.0]"
+    path.write_text(path.read_text().replace("import math", setup, 1))
+    sheet = cells.load(path)
+    _, recording = recorded(sheet)
+    held = [*sheet.common["seen"], *sheet.common["known"]["all"].values(), *sheet.common["known"]["list"]]
+    assert held == [2.5, 2.5, 0.75] and all(type(x) is float for x in held)
+    assert value_of(recording, "y", {"F": 4.0}) == 8.0 and not recording.gaps
+
+
 @pytest.mark.parametrize(
     "lines",
     [

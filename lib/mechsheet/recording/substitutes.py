@@ -9,13 +9,14 @@ import builtins
 import os
 import sys
 import warnings
+from collections import Counter, OrderedDict, defaultdict, deque
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
 from functools import _lru_cache_wrapper, cache, lru_cache, partial
 from inspect import unwrap
 from io import StringIO
-from types import BuiltinFunctionType, FunctionType, GeneratorType, GenericAlias, ModuleType
+from types import BuiltinFunctionType, FunctionType, GeneratorType, GenericAlias, ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -49,6 +50,7 @@ _ROOMS = ("mechsheet.mechanics.", "mechsheet.worksheet.force_diagram")
 _WRITTEN = {"__post_init__"}  # the only special method of a group that is not made by `dataclass`
 _GONE_THROUGH = (GeneratorType, map, filter)  # once, to whoever asks
 _CHOOSING = (np.where, np.select)  # among numbers which all are computed before
+_HOLDING = (list, dict, set, deque, defaultdict, OrderedDict, Counter, SimpleNamespace)
 _ARRAYS = (np.array, np.asarray, np.asanyarray, np.ascontiguousarray, np.fromiter)
 
 
@@ -65,6 +67,18 @@ _NOWHERE = frozenset({"require", "refuse", "summary", "export", "typeset"})  # o
 def shared(common: Mapping[str, Any]) -> dict[str, Any]:
     """The shared names of a worksheet, with what takes recorded quantities in place of what does not."""
     own: dict[str, Any] = {**_NAMES, "__builtins__": BUILTINS}
+    copies = dict[int, Any]()
+
+    def copied(value: Any) -> Any:
+        """What holds others for a recording alone, which may put quantities into it; anything else is itself."""
+        if type(value) not in _HOLDING:
+            return value
+        if id(value) not in copies:
+            copies[id(value)] = new = copy(value)
+            held: Any = vars(new) if isinstance(new, SimpleNamespace) else new
+            for key in held if isinstance(held, dict) else range(0 if isinstance(held, set) else len(held)):
+                held[key] = copied(held[key])
+        return copies[id(value)]
 
     def meant(value: Any) -> Any:
         match value:
@@ -76,7 +90,7 @@ def shared(common: Mapping[str, Any]) -> dict[str, Any]:
                 return {key: meant(each) for key, each in value.items()}
             case list() if type(value) is list and any(map(callable, value)):
                 return list(map(meant, value))
-        return instead(value)
+        return instead(value) if copied(value) is value else copied(value)
 
     own |= {name: meant(value) for name, value in common.items() if name != "__builtins__"}
     return own
