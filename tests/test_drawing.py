@@ -448,6 +448,7 @@ def test_any_finite_input_gives_well_formed_svg_inside_its_view(moves: list[tupl
         (lambda: Drawing().link(cast(Any, np.zeros(3)), 0j), "link: its points must be single complex numbers"),
         (lambda: Drawing().hinge(cast(Any, np.zeros(3))), r"hinge: .* got arrays of shape \(3,\)"),
         (lambda: Drawing().hinge(cast(Any, "A")), "hinge: its points must be single complex numbers"),
+        (lambda: Drawing().link(0j, 1 + 0j, cast(Any, 3)), "link: its name must be a text between quotes, not 3"),
         (lambda: Drawing().plate([0j, 1j]), "plate: needs 3 points or more, got 2"),
         (lambda: Drawing().path(np.zeros((2, 3))), r"path: .* got arrays of shape \(3,\)"),
         (lambda: Drawing().force(0j, cast(Any, np.zeros(3))), "arrow: its points must be single complex numbers"),

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from own_worksheet import written
 
-from mechsheet import load
+from mechsheet import ask, load, slider
 from mechsheet.document.left_out import left_out
 from mechsheet.run import report
 from mechsheet.worksheet import inputs, limits, source
@@ -304,3 +304,25 @@ def test_a_number_that_is_hardly_meant_in_si_is_told(line: str, said: str, tmp_p
     in_editor = [each for each in left_out(cells, names) if "is taken" in each.why]
     assert [(each.cell, each.line) for each in in_editor] == [(1, 3)] * bool(said)
     assert all(each.why.startswith(said) for each in in_editor)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (("0", 10), "slider S: start = '0' must be one number"),
+        ((0, 10, 0), "slider S: step = 0 must be a number > 0"),
+        ((0, 10, 1, [3.0]), "slider S: value = [3.0] must be one number"),
+        ((0, 10, 1, None, "S", "mmm"), "slider S: unit [mmm] is not known"),
+    ],
+)
+def test_what_a_slider_cannot_take_is_named(given, told):
+    with pytest.raises(SheetError, match=re.escape(told)):
+        slider(*given, *(0, 10, 1, None, "S")[len(given) :])
+
+
+def test_inputs_that_are_none_are_named():
+    with pytest.raises(SheetError, match="read takes a class of inputs and what ask gives of it"):
+        inputs.read(int, 4)
+    row = run("from mechsheet import inputs\n@inputs\nclass Row:\n    a: float  # [m] length")["Row"]
+    with pytest.raises(SheetError, match=re.escape("input a of Row needs a value, such as a: float = 1.0")):
+        ask(row)

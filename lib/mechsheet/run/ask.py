@@ -27,6 +27,8 @@ def ask(cls: type) -> "mo.ui.batch | Given":
     try:
         if not hasattr(cls, "__worksheet__"):
             raise SheetError(f"ask takes a class of inputs: write @inputs above {getattr(cls, '__name__', cls)}")
+        if not hasattr(cls, "__inputs__") and (names := [field.name for field in declared(cls)]):
+            raise SheetError(f"input {names[0]} of {cls.__name__} needs a value, such as {names[0]}: float = 1.0")
         given = _given(cls).inputs
         if "marimo" not in sys.modules:
             return Given(given)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.shown import Shown
 
 # Legible on white and on black; "" is the colour of the text round the drawing.
@@ -222,6 +222,8 @@ class Drawing(Shown):
         number = _points(kind, (value,))[0].real
         if not isfinite(number):  # leaves the element out
             at = (complex(nan, nan),) * len(at)
+        if not isinstance(name, str):
+            raise SheetError(f"{kind}: its name must be a text between quotes, not {as_given(name)}")
         if tip is None:
             tip = ": ".join(filter(None, (name, measure(*at[:2]) if measure else "")))
         element = Element(kind, at, name, tip, number, vector, unit, into, colour)

@@ -406,8 +406,10 @@ _said = dict[int, Mapping[str, object]]()  # what stood in the fields, by the id
 
 def read(cls: type[T], form: Any) -> T:
     """Inputs as the text fields that `ask` gives hold them, checked as in `build`."""
-    values: dict[str, object] = form.value
     try:
+        if not (hasattr(cls, "__inputs__") and hasattr(form, "value")):
+            raise SheetError("read takes a class of inputs and what ask gives of it: g = read(Inputs, form)")
+        values: dict[str, object] = form.value
         g = build(cls, values)
     except SheetError as error:
         refuse(error)

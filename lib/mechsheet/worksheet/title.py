@@ -2,9 +2,10 @@
 
 import sys
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, NamedTuple
 
-from mechsheet.worksheet.errors import SheetError, refuse
+from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse
 from mechsheet.worksheet.shown import Shown, page
 
 
@@ -92,9 +93,14 @@ def slider(
 
     Raises SheetError where the value is not within the range.
     """
-    made = Slider(start, stop, step, start if value is None else value, label, unit)
+    made, of = Slider(start, stop, step, start if value is None else value, label, unit), label or "without a label"
+    for what, x in {"start": start, "stop": stop, "value": made.value, "step": 1 if step is None else step}.items():
+        if not isinstance(x, Real) or (what == "step" and not x > 0):
+            kind = "a number > 0" if what == "step" else "one number"
+            refuse(SheetError(f"slider {of}: {what} = {as_given(x)} must be {kind}"))
+    measured(unit, f"slider {of}")
     if not start <= made.value <= stop:
-        refuse(SheetError(f"slider {label or 'without a label'}: value = {made.value} must be {start}..{stop}"))
+        refuse(SheetError(f"slider {of}: value = {made.value} must be {start}..{stop}"))
     # Of another worksheet, evaluated in a page, nothing can be moved there.
     return page().slider(made) if sys._getframe(1).f_globals.get("__name__") == "__main__" else made
 
