@@ -302,6 +302,21 @@ def test_a_field_says_what_it_is_and_its_line_is_edited_by_keys(editor):
     expect(unit).to_be_focused()
 
 
+def test_two_clicks_on_a_heading_edit_its_text(editor):
+    """Its code stayed out of sight, with the button too, and its section was closed."""
+    page = editor.page
+    page.get_by_label("code of all cells").uncheck()
+    heading = page.get_by_role("heading", name="3 Results")
+    code = page.locator(".marimo-cell", has=heading).locator(".cm-content").first
+    heading.dblclick()
+    expect(code).to_be_focused()
+    assert code.evaluate("text => text.closest('.cm').offsetHeight") > 10
+    expect(heading).to_have_attribute("aria-expanded", "true")
+    page.locator(".ms-title b").first.click()
+    expect(page.locator(".cm-content:visible")).to_have_count(0)
+    page.get_by_label("code of all cells").check()
+
+
 def test_a_second_tab_shows_what_the_first_computes_with(editor, browser):
     """Its fields kept what they had first, and what was typed there was computed beside the fields of the first."""
     name = "Mmax, N·m, greatest moment> 0"

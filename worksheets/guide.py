@@ -20,9 +20,9 @@ def title():
         "Guide",
         """
     A press that teaches by being edited: open it with `python lib/mechsheet edit guide`, do what stands after **Try**.
-    A click on a formula or on the symbol of an input edits its line, Enter writes it, Ctrl-Z takes it back; the button
-    *code* shows all lines of a cell, which Ctrl-Enter runs and Ctrl-S saves. A click on a heading closes its section
-    on the screen, and another one opens it.
+    A click on a formula, a check, a table or the symbol of an input edits its line, as does F2, Enter writes it, Ctrl-Z
+    takes it back; two clicks on a text edit that, and the button *code* shows all lines of a cell: these Ctrl-Enter
+    runs and Ctrl-S saves. A click on a heading closes its section on the screen, and another one opens it.
     """,
     )
     return

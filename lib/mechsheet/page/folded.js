@@ -40,6 +40,20 @@
   document.addEventListener("scroll", () => (button.hidden = true), { capture: true, passive: true });
   button.addEventListener("click", () => fold(of, !("msFolded" in of.dataset)));
 
+  // Two clicks on a text or a heading edit it, until the keyboard leaves it.
+  document.addEventListener("dblclick", ({ target }) => {
+    const cell = target.closest?.(".markdown, .ms-title") && target.closest(".marimo-cell[data-ms-folded]");
+    if (!cell) return;
+    fold(cell, false);
+    getSelection().empty();
+    cell.querySelector(".cm-content")?.focus();
+    cell.addEventListener("focusout", function left({ relatedTarget }) {
+      if (cell.contains(relatedTarget) || cell.matches(".needs-run")) return;
+      cell.removeEventListener("focusout", left);
+      fold(cell, true);
+    });
+  });
+
   // What leads to a cell shows it: a mistake in the title may be that of a cell without anything to read.
   document.addEventListener("click", ({ target }) => {
     const cell = document.querySelector(target.closest?.('a[href^="#cell-"]')?.getAttribute("href") ?? ":not(*)");

@@ -67,6 +67,9 @@
     if (times) requestAnimationFrame(() => requestAnimationFrame(() => lead(to, times - 1)));
   }
 
+  const SECOND = 250; // ms within which a second click on a heading of the editor edits it, and closes nothing
+  let second;
+
   const targetOf = (link) => document.getElementById(decodeURIComponent(link.hash.slice(1)));
 
   document.addEventListener(
@@ -84,10 +87,16 @@
       }
       const heading = target.closest?.(HEADINGS);
       if (heading) {
+        clearTimeout(second);
         if (getSelection().toString()) return;
         const { name } = sections().find((each) => each.heading === heading);
-        if (!closed.delete(name)) closed.add(name);
-        return show();
+        const toggle = () => {
+          if (!closed.delete(name)) closed.add(name);
+          show();
+        };
+        if (!event.detail || !heading.closest(".interactive")) return toggle();
+        if (event.detail === 1) second = setTimeout(toggle, SECOND);
+        return;
       }
       if (!closed.size || target.closest?.(".marimo-cell")) return;
       const text = target.textContent?.trim(); // an entry of marimo's outline
