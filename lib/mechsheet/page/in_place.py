@@ -31,7 +31,17 @@ from mechsheet.page.script import element, script
 from mechsheet.workbook.save import save
 from mechsheet.worksheet import inputs, mistakes, scene, source
 from mechsheet.worksheet.errors import SheetError, some
-from mechsheet.worksheet.line_edit import OF_INPUT, Change, asked_for, change, declares, imported, line, same_cells
+from mechsheet.worksheet.line_edit import (
+    OF_INPUT,
+    Change,
+    asked_for,
+    change,
+    changed,
+    declares,
+    imported,
+    line,
+    same_cells,
+)
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.numbers import on_page
 from mechsheet.worksheet.renaming import renamed
@@ -52,7 +62,7 @@ class InPlace:
         self.namespace, self.redraw = namespace, redraw
         self.path = Path(namespace["__file__"])
         self.answer: dict[str, Any] = {}
-        self.scenes: dict[str, dict[Path, tuple[str, str]]] = {}
+        self.scenes: dict[tuple[str, ...], dict[Path, tuple[str, str]]] = {}
         self.field = mo.ui.text_area(on_change=self.asked)
         # Of what is read as one types, by its name: the cell of a line that is written warns itself.
         warnings.filterwarnings("ignore", "", SyntaxWarning, f"<unknown>|{_FILE}")
@@ -110,7 +120,7 @@ class InPlace:
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)
-        for path, (now, former) in self.scenes.pop(made, {}).items() if do == "undo" else ():
+        for path, (now, former) in self.scenes.pop(tuple(told.after), {}).items() if do == "undo" else ():
             if path.is_file() and path.read_bytes().decode() == now:
                 save(former.encode(), path)
         return {"written": told._asdict()}
@@ -118,17 +128,18 @@ class InPlace:
     def rename(self, text: str, name: str, was: str, new: str) -> Any:
         """Write a line that gives its name another one, and that one in all others, and in the scenes beside the file.
 
-        Texts of the scenes, now and before, are kept by that of the file before, for the change to be taken back.
+        Texts of the scenes, now and before, are kept by what the change was made of, for it to be taken back.
         """
         old, other = _renames(was, new)
         made = renamed(self.path, old, other, scene.texts_beside(self.path))
         renamed_name = name.removesuffix(old) + other
         whole = made.pop(self.path)
         whole = change(whole, renamed_name, line(whole, renamed_name), new).of(whole)
-        self.scenes[text] = {path: (now, path.read_bytes().decode()) for path, now in made.items()}
+        told = changed(text, whole)
+        self.scenes[tuple(told.before)] = {path: (now, path.read_bytes().decode()) for path, now in made.items()}
         for path, now in {self.path: whole, **made}.items():
             save(now.encode(), path)
-        return {"written": Change((text,), (whole,))._asdict()}
+        return {"written": told._asdict()}
 
     def is_taken(self, text: str) -> bool:
         """Whether the cells of the page are those of the file."""

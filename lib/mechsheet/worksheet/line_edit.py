@@ -36,13 +36,16 @@ class Change(NamedTuple):
     after: Sequence[str]
 
     def of(self, text: str) -> str:
-        """The text after the change.
+        """The text after the change, whatever the cells return by now: the editor writes that anew when it saves.
 
         Raises SheetError where a part is not there, or what comes out is no Python.
         """
         for before, after in zip(self.before, self.after, strict=True):
             if text.count(before) != 1:
-                raise SheetError("the cell has changed since in the file: nothing is written")
+                there = [part for part in _cells(text) if _RETURN.sub("", part) == _RETURN.sub("", before)]
+                if len(there) != 1:
+                    raise SheetError("the cell has changed since in the file: nothing is written")
+                before = there[0]
             text = text.replace(before, after)
         _parsed(text)
         return text
@@ -50,6 +53,27 @@ class Change(NamedTuple):
     def back(self) -> "Change":
         """The change that takes this one back."""
         return Change(self.after, self.before)
+
+
+_RETURN = re.compile(r"\n\s+return\b[^\n(]*(?:\([^()]*\))?\s*\Z")
+
+
+def _cells(text: str) -> Iterator[str]:
+    """Texts of the cells, each with its decorator and without."""
+    rows = list(io.StringIO(text, newline=""))
+    for node in functions(_parsed(text)):
+        first, last = _rows(node)
+        yield from ("".join(rows[n:last]) for n in dict.fromkeys((first, node.lineno - 1)))
+
+
+def changed(text: str, made: str) -> Change:
+    """The change from one text of a file to another one with the same cells, of the parts that differ."""
+    parts = (
+        ["".join(list(io.StringIO(each, newline=""))[slice(*_rows(node))]) for node in _parsed(each).body]
+        for each in (text, made)
+    )
+    before, after = zip(*(pair for pair in zip(*parts, strict=True) if pair[0] != pair[1]), strict=True)
+    return Change(before, after)
 
 
 def line(text: str, name: str) -> str:
