@@ -80,8 +80,20 @@ def test_help_shows_each_command_by_an_example_that_it_takes(
 
 @pytest.mark.parametrize("command", sorted({*launcher.COMMANDS} - {"edit", "serve", "test"}))
 def test_a_command_that_is_asked_for_help_gives_it(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert launcher.main([command, "--help"]) == 0
-    assert f"\n  {command} NAME" in capsys.readouterr().out
+    for options in (["--help"], ["hitch", "-h"]):
+        assert launcher.main([command, *options]) == 0
+        assert f"\n  {command} NAME" in capsys.readouterr().out
+
+
+def test_ctrl_c_before_a_run_is_watched_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """While modules were loaded, half of the time of a short command, there was a traceback."""
+    (tmp_path / "loading.py").write_text("raise KeyboardInterrupt")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setattr(sys, "argv", [])
+    monkeypatch.setattr(sys, "excepthook", sys.__excepthook__)
+    assert launcher.here("loading") == 130 and capsys.readouterr().err == "interrupted\n"
 
 
 def test_every_worksheet_stands_in_the_help_with_its_title(
@@ -151,10 +163,10 @@ def test_a_name_is_looked_for_here_then_among_the_worksheets_and_examples(
 @pytest.mark.parametrize("environment", [{}, {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}])
 def test_run_passes_the_rest_on_and_the_exit_code_back(sheet: Path, environment: dict[str, str]) -> None:
     """In the process of the command, and in one of its own where that writes no UTF-8."""
-    command = [sys.executable, "-m", "mechsheet", "run", sheet, "--P6=30e3", "--phi_BD=-3.5", "--help"]
+    command = [sys.executable, "-m", "mechsheet", "run", sheet, "--P6=30e3", "--phi_BD=-3.5", "--proof"]
     done = subprocess.run(command, capture_output=True, encoding="utf-8", env={**os.environ, **environment})
     assert (done.returncode, done.stderr) == (3, "")
-    assert done.stdout.split() == ["--P6=30e3", "--phi_BD=-3.5", "--help", "φ"]
+    assert done.stdout.split() == ["--P6=30e3", "--phi_BD=-3.5", "--proof", "φ"]
 
 
 def test_in_the_process_of_the_command_modules_of_the_current_folder_are_found(tmp_path: Path) -> None:

@@ -69,7 +69,7 @@ def main(argv: "list[str] | None" = None) -> int:
         sys.exit(f"mechsheet: Python {needed} or newer is needed, this is Python {found} ({sys.executable})")
     command, *options = (sys.argv[1:] if argv is None else argv) or [""]
     own = command not in ("edit", "serve", "test")  # what marimo and pytest take, they tell themselves
-    if command in ("", "-h", "--help") or (own and options[:1] in (["-h"], ["--help"])):
+    if command in ("", "-h", "--help") or (own and not {"-h", "--help"}.isdisjoint(options)):
         say(contents() + HELP)
         return 0 if command else 2
     if command in ("edit", "serve"):
@@ -355,7 +355,13 @@ def here(module: str, *options: str) -> int:
     sys.argv = [module, *options]
     if not sys.flags.safe_path and sys.path[:1] != [os.getcwd()]:
         sys.path.insert(0, os.getcwd())
-    runpy.run_module(module, run_name="__main__", alter_sys=True)
+    try:
+        runpy.run_module(module, run_name="__main__", alter_sys=True)
+    except KeyboardInterrupt:
+        if sys.excepthook is not sys.__excepthook__:  # the run tells its end itself
+            raise
+        print("interrupted", file=sys.stderr)
+        return 130
     return 0
 
 
