@@ -16,7 +16,7 @@ from test_exports import read as workbook
 
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.run import arguments, batch, units_once
-from mechsheet.workbook import save
+from mechsheet.workbook import save, writing
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from tests.own_worksheet import own
@@ -205,6 +205,24 @@ def test_summary_workbook(tmp_path):
     values = [line[1:] for line in book["GS6"].iter_rows(min_row=5, values_only=True)]
     assert [line[0] for line in values[:3]] == list(GS6[0]) and values[3][0] == "=#N/A"
     assert [line[1] for line in values] == list(GS6[1])
+
+
+def test_long_texts_of_a_summary_have_room(tmp_path):
+    """Reasons and tables ran over the cells beside them, and were cut."""
+    rows = [
+        ("Verdict",),
+        ("reason", "", "", "", "no position closes for cylinder S: " * 4),
+        ("F", "N", "force", 1.5, -2.5e-7),
+    ]
+    (tmp_path / "summary.xlsx").write_bytes(writing.comparison("Scenes", ["a", "b"], rows, []))
+    sheet = load_workbook(tmp_path / "summary.xlsx")["Scenes"]
+    assert sheet["E4"].alignment.wrap_text and sheet["E4"].value.startswith("no position")
+    width, height, usual = (
+        sheet.column_dimensions["E"].width,
+        sheet.row_dimensions[4].height,
+        sheet.row_dimensions[5].height,
+    )
+    assert len(sheet["E4"].value) < width * (height / usual) * 1.3 and sheet.column_dimensions["D"].width < width
 
 
 def test_limits_of_checks_stand_for_their_own(tmp_path, capsys):

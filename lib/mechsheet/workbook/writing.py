@@ -1,8 +1,10 @@
 """Workbooks as the bytes of a file: that of a worksheet, and that of scenes side by side."""
 
+import math
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import replace
 from itertools import count
+from typing import Any
 
 from mechsheet.quantities.lines import Recording
 from mechsheet.workbook import (
@@ -27,6 +29,7 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.index import Index
 from mechsheet.worksheet.table import Column, Figure, Table
 
+_DIGITS, _TEXT = 17, 30  # characters of a number with all its digits, and of a line of a long text
 _PACKED = 4  # times as long as putting the cells takes the whole file
 
 
@@ -142,13 +145,26 @@ def comparison(
     """
     book = Book(title)
     texts = [(head, looks.TEXT) for head in ("Symbol", "Unit", "Meaning")]
-    fields = [*texts, *((name, looks.NUMBER) for name in names)]
+    fields = [*texts, *((name, {**looks.NUMBER, "text_wrap": True}) for name in names)]
     sheet = book.listing("Scenes", f"{book.title} - scenes side by side", fields, rows)
-    sheet.set_column_pixels(3, 2 + len(names), looks.CHAR * 17 + looks.PAD)  # a number with all its digits
+    _give_room(sheet, rows, 3)
     checks_sheet.verdicts(book, sheet, len(rows), 3, 2 + len(names))
     for table in tables:
         table_sheet.write(book, book.name(table.title), table.title, table.note, table_sheet.contents(table, None))
     return book.close()
+
+
+def _give_room(sheet: Any, rows: Sequence[Sequence[str | float]], first: int) -> None:
+    """Width for a number with all its digits in the columns from the ``first`` one on, and for longer texts lines."""
+    lengths = [[len(x) if isinstance(x, str) else 0 for x in row[first:]] for row in rows]
+    columns = zip(*(each for each in lengths if each), strict=True)
+    widths = [max(_DIGITS, min(_TEXT, max(column) // 3)) for column in columns]
+    for at, width in enumerate(widths, first):
+        sheet.set_column_pixels(at, at, looks.CHAR * width + looks.PAD)
+    for n, each in enumerate(lengths, 2):
+        lines = max((math.ceil(length / (w - 2)) for length, w in zip(each, widths, strict=False)), default=1)
+        if lines > 1:
+            sheet.set_row_pixels(n, looks.ROW + (lines - 1) * (looks.ROW - 5))
 
 
 def _formulas(
