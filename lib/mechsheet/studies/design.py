@@ -291,7 +291,7 @@ def scene_text(
     lines = [*(f"# {remark}" for remark in remarks), "[inputs]"]
     texts = {name: _quoted(value) if isinstance(value, str) else repr(value) for name, value in inputs.items()}
     lines += [f"{_key(name)} = {text}  # {numbers.in_text(fields[name].unit)}" for name, text in texts.items()]
-    lines += ["", "[limits]"]
+    lines += ["", "[limits]"] if limits else []
     for name, limit in limits.items():
         ends = (f"{end} = {value!r}" for end, value in (("min", limit.min), ("max", limit.max)) if value is not None)
         lines.append(f"{_quoted(name)} = {{{', '.join(ends)}}}")
