@@ -146,6 +146,7 @@ def test_another_file_is_given_by_a_scene_beside_it(engine: Path, tmp_path: Path
         ),
         ("V;p\n100;1\n\n-5;2\n", "row 4, column V: volume gas.V (2) = -5.0 cm³ must be positive"),
         ("V;q\n100;1\n", "row 1: no column p; it has V, q"),
+        ("V (l);p (bar)\n1;1\n", "row 1: no column V; it has no names such as V [unit], but V (l), p (bar)"),
         ("V;p;p\n100;1;1\n", "row 1: column p stands there twice"),
         ("V;p\n100;1;7\n", "row 2: 3 values under 2 names of columns"),
         ("V,p\n1,5,3\n", "row 2: 3 values under 2 names of columns"),
@@ -171,7 +172,7 @@ def test_what_cannot_be_used_is_one_line_with_its_place(engine: Path, text: str,
 @pytest.mark.parametrize(
     "text",
     [
-        "V;p\n100;20\n200;10,5\n400;4\n;;\n;\n",  # empty rows, as spreadsheet programs write them below the last
+        "sep=;\nV;p\n100;20\n200;10,5\n400;4\n;;\n;\n",  # empty rows, as spreadsheet programs write them below the last
         "V;p\n100,000;20\n200,000;10,5\n400,000;4\n",  # three decimals among others with a comma
         "V;p\n100.000;20.000\n200.000;10.500\n400.000;4.000\n",
         'V,p\n100,20\n200,"10,5"\n400,4\n',

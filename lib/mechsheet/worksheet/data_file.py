@@ -22,6 +22,7 @@ MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as
 _HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
 _NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)
 _EMPTY = ' \t;,"'  # all that a row of empty cells has, as spreadsheet programs write those below the last number
+_APART = re.compile(r"sep=.?", re.IGNORECASE)  # a first line that tells Excel the sign between cells
 _ERROR = re.compile(r"#(?:N/A|NV|Н/Д|\S+[!?])")  # as spreadsheet programs write it: no remark
 _SIGNED = re.compile(r"\W?(\d+)([.,])(\d+)(?![\d.,])")
 _MOST = 100_000  # rows that are looked at
@@ -84,7 +85,8 @@ def columns(path: Path, wanted: Mapping[str, str | None]) -> Columns:
             at[match[1]], units[match[1]] = n, match[2] or ""
     for name in wanted:
         if name not in at:
-            raise SheetError(f"file {path}, row {first}: no column {name}; it has {cut(', '.join(at)) or 'no names'}")
+            has = cut(", ".join(at)) or f"no names such as {name} [unit], but {cut(', '.join(map(str, heads)))}"
+            raise SheetError(f"file {path}, row {first}: no column {name}; it has {has}")
     for n, cells in body:
         if len(cells) > len(heads) and any(str(cell).strip() for cell in cells[len(heads) :]):
             raise SheetError(f"file {path}, row {n}: {len(cells)} values under {len(heads)} names of columns")
@@ -142,7 +144,9 @@ def _text(path: Path) -> tuple[list[tuple[int, list[Any]]], str]:
         raise SheetError(f"file {path} is no text in UTF-8") from None
     numbered = enumerate(text.splitlines(), 1)
     lines = [
-        (n, line) for n, line in numbered if line.strip(_EMPTY) and (not line.startswith("#") or _ERROR.match(line))
+        (n, line)
+        for n, line in numbered
+        if line.strip(_EMPTY) and (not line.startswith("#") or _ERROR.match(line)) and not _APART.fullmatch(line)
     ]
     apart = next((mark for mark in ";\t" if lines and mark in lines[0][1]), ",")
     return [(n, next(csv.reader([line], delimiter=apart))) for n, line in lines[:_MOST]], apart
