@@ -95,7 +95,11 @@ def test_one_set_of_numbers_is_one_variant():
 def test_texts_and_a_data_frame_are_read_as_the_page_reads_them():
     texts = sweep(HITCH, ["GS6"], {"L5": ["0,48", "0.47"], "phi_P6": ["90", "85"]})
     frame = sweep(HITCH, ["GS6"], pd.DataFrame({"L5": [0.48, 0.47], "phi_P6": [90, 85]}))
-    assert same(texts, frame)
+    headed = sweep(HITCH, ["GS6"], pd.DataFrame({"L5 [mm]": ["480,0", 470], "phi_P6 [deg]": [90, 85]}))
+    assert same(texts, frame) and same(texts, headed)
+    for head, why in (("L5 [kN]", "kN does not measure m"), ("L5 [parsec]", "parsec"), (" L5", "input  L5 is unknown")):
+        with pytest.raises(SheetError, match=why.replace("[", r"\[")):
+            sweep(HITCH, ["GS6"], {head: [0.48]})
 
 
 def test_values_in_display_units_and_as_a_frame():

@@ -7,6 +7,7 @@ by a mean over everything, is found out before: then many of them are computed b
 it does not know, one after the other.
 """
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import nullcontext
@@ -27,12 +28,14 @@ from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs, lists
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
+from mechsheet.worksheet.kinds import converted
 from mechsheet.worksheet.table import heading
 
 if TYPE_CHECKING:
     import pandas as pd
 
 T = TypeVar("T")
+_HEAD = re.compile(r"\s*(\w+)\s*\[([^\]]*)\]\s*")
 _CHUNK = 2000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
 _RECORDINGS = 4  # variants that are recorded at most
 _PAYS = 100  # variants that take as long alone as a recording and its check, and more
@@ -229,7 +232,7 @@ def _swept(
     executor: Executor | Callable[[], Executor] | None,
 ) -> Sweep:
     """`sweep` of what can be swept."""
-    given = inputs.variants(sheet.inputs, {str(name): values for name, values in variants.items()})
+    given = inputs.variants(sheet.inputs, _by_name(sheet, variants))
     rows = np.flatnonzero(given.reasons == "")
     job = Job(sheet.path, digest(sheet.path), want, at_once=True)
     together = _together(sheet, job, given, rows)
@@ -272,6 +275,27 @@ def _swept(
         at_once=job.at_once or bool(job.recorded),
         _values={name: v.reshape((*given.shape, *v.shape[1:])) for name, v in values.items()},
     )
+
+
+def _by_name(sheet: Worksheet, variants: "Mapping[str, ArrayLike] | pd.DataFrame") -> dict[str, Any]:
+    """Values by the names of the inputs, each in its own unit: a head such as ``r [cm]`` tells that of its column."""
+    found, fields = dict[str, Any](), {field.name: field for field in inputs.declared(sheet.inputs)}
+    for head, values in variants.items():
+        match = _HEAD.fullmatch(str(head))
+        name, unit = match.groups() if match else (str(head), "")
+        if name in found:
+            raise SheetError(f"input {name} is given twice")
+        own = inputs.known(fields, name).unit
+        if unit and units.plain(unit) != own:
+            try:
+                units.conversion(unit, own)
+            except ValueError as error:
+                raise SheetError(f"input {as_given(str(head))}: {error}") from None
+            each = np.asarray(values, dtype=object)
+            plain = [converted(x, unit, own) if isinstance(x, int | float) else f"{x} {unit}" for x in each.flat]
+            values = np.array([*plain, None], dtype=object)[:-1].reshape(each.shape)
+        found[name] = values
+    return found
 
 
 def _shapes(job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> dict[str, tuple[int, ...]]:
