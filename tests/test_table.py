@@ -222,7 +222,6 @@ def test_names_in_a_note_are_symbols(names):
         ("figure('1', 'Shaft', x, y, every=1.5)", "figure 1: every must be a whole number from 1 on, not 1.5"),
         ("table('1', 'Shaft', x, decimals=0.003)", "table 1: decimals must be a whole number from 0 on, not 0.003"),
         ("table('1', 'Shaft', x, decimals=-1)", "table 1: decimals must be a whole number from 0 on, not -1"),
-        ("Column('x', 'mmm', '', 3, x)", "column x: unit [mmm] is not known"),
         ("Column('x', 'm', '', 3, x * 1j)", "column x: its values must be real numbers or texts, one a row"),
         ("Column('x', 'm', '', -1, x)", "column x: its decimals must be a whole number >= 0, not -1"),
         ("Table('1', 'Shaft', ('x',))", "table 1: its columns must be several of Column, not ('x',)"),

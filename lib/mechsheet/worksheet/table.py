@@ -61,8 +61,6 @@ class Column:
             told = "must be real numbers or texts, one a row"
             refuse(SheetError(f"column {self.symbol}: its values {told}, not {as_given(self.values)}"))
         object.__setattr__(self, "values", unmasked(self.values))
-        if self.unit and units.known(self.unit) is None:
-            measured(self.unit, f"column {self.symbol}")
         if not isinstance(self.decimals, int) or self.decimals < 0:
             given = as_given(self.decimals)
             refuse(SheetError(f"column {self.symbol}: its decimals must be a whole number >= 0, not {given}"))
