@@ -216,6 +216,8 @@ CONSTRUCTS = [
     "h = []\ndef f(v):\n    h.append(v)\n    return v > 2\ny = 1.0 if f(g.F) and f(g.a) else 2.0\ny += len(h)",
     "h = {0: 0}\ndef f(v):\n    h[0] += 1\n    return v\nif g.F > 2:\n    y = f(g.F)\nelse:\n    y = g.a\ny += h[0]",
     "h = []\ndef f(v):\n    h.append(v)\n    return v\ny = {2: lambda: f(1.0)}.get(g.k, lambda: g.a)() + len(h)",
+    "h = []\nf = lambda v: h.append(v) or v\ny = f(g.F) if g.F > 2 else g.a\ny += len(h)",
+    "h = []\nf = h.append\ny = (f(g.F), 3.0)[1] if g.F > 2 else g.a\ny += len(h)",
     "f = np.frompyfunc(lambda v: v * g.a, 1, 1)\ny = f(x).astype(float)",
     "def make(c):\n    return np.frompyfunc(lambda v: v * c, 1, 1)\ny = make(g.a)(x).astype(float)",
     "try:\n    k = find(lambda t: t * g.a, 0, 1, equals=g.F - 2).value\nexcept Exception:\n    k = 7.0\ny = k * g.a",

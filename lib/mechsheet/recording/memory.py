@@ -218,6 +218,8 @@ def _parts(value: Any) -> list[Any] | None:
             return [*vars(value).values(), *value.__bases__]
         case MethodType():
             return [value.__self__, value.__func__]
+        case BuiltinFunctionType():
+            return [value.__self__]
         case partial():
             return [value.func, *value.args, *value.keywords.values()]
         case FunctionType():
@@ -254,15 +256,9 @@ def _as_it_was(value: Any, parts: list[Any] | None) -> bool:
 
 
 def before_ways(now: Any, later: Any, *given: Any) -> Memory:
-    """All that two ways reach, of which the first is gone, and what is given to them.
-
-    Where a function may change something, what it reads by its name is looked at too.
-    """
-    own = _shared(now, later)
-    memory = Memory([*_read(now), *_read(later), *given], own)
-    functions = (f for f in (now, *memory.functions) if isinstance(f, FunctionType))
-    if may_change((f.__code__ for f in functions), own):
-        memory.follow()
+    """All that two ways reach, of which the first is gone, by what their functions read too, and what is given."""
+    memory = Memory([*_read(now), *_read(later), *given], _shared(now, later))
+    memory.follow()
     return memory
 
 
