@@ -218,6 +218,8 @@ CONSTRUCTS = [
     "h = []\ndef f(v):\n    h.append(v)\n    return v\ny = {2: lambda: f(1.0)}.get(g.k, lambda: g.a)() + len(h)",
     "h = []\nf = lambda v: h.append(v) or v\ny = f(g.F) if g.F > 2 else g.a\ny += len(h)",
     "h = []\nf = h.append\ny = (f(g.F), 3.0)[1] if g.F > 2 else g.a\ny += len(h)",
+    "h = []\nf = lambda v: h.append(v) or v\ny = sum(f(v) for v in (g.F, 3.0) if v > 2) + len(h)",
+    "h = []\ndef f(v):\n    h.append(v)\n    return v > 2\ny = all(f(v) for v in (g.F, 3.0)) + len(h)",
     "f = np.frompyfunc(lambda v: v * g.a, 1, 1)\ny = f(x).astype(float)",
     "def make(c):\n    return np.frompyfunc(lambda v: v * c, 1, 1)\ny = make(g.a)(x).astype(float)",
     "try:\n    k = find(lambda t: t * g.a, 0, 1, equals=g.F - 2).value\nexcept Exception:\n    k = 7.0\ny = k * g.a",

@@ -4,7 +4,7 @@ import builtins
 import operator
 from collections.abc import Callable
 from functools import reduce
-from types import FunctionType
+from types import FunctionType, GeneratorType
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from mechsheet.quantities.quantity import Quantity, has_quantity
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
 from mechsheet.recording.choices import ARRAYS, NUMBERS, as_condition, choice, is_condition
+from mechsheet.recording.memory import may_change
 from mechsheet.worksheet.kinds import Chosen
 
 
@@ -82,6 +83,9 @@ def every(values: Any) -> Any:
 def _whether(values: Any, kind: str, fold: Callable[[Any, Any], Any]) -> Any:
     if isinstance(values, Selected) or (isinstance(values, Quantity) and values.ndim == 1):
         return (values if values.dtype == bool else values != 0).reduced(kind)
+    frame = values.gi_frame if isinstance(values, GeneratorType) else None
+    if frame and may_change([frame.f_code], frame.f_globals):
+        return getattr(builtins, kind)(values)  # of which the last ones may not be asked for
     each = list(values)
     if not any(map(is_condition, each)) or not all(isinstance(x, ARRAYS) for x in each):
         return getattr(builtins, kind)(each)

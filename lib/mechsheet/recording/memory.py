@@ -31,6 +31,10 @@ from mechsheet.recording.sifted import Sifted
 
 _SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
+_METHODS = {  # which change what they are called of, in the middle of an expression too
+    "append", "appendleft", "extend", "insert", "pop", "popleft", "popitem", "setdefault", "update", "remove",
+    "discard", "clear", "__setitem__",
+}  # fmt: skip
 _SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
@@ -302,6 +306,8 @@ def operations(code: CodeType) -> set[str]:
 @lru_cache(maxsize=4096)
 def changes(code: CodeType) -> bool:
     """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
+    if not _METHODS.isdisjoint(code.co_names):
+        return True
     last, does = "", operations(code)
     for instruction in dis.get_instructions(code) if not does.isdisjoint(_MAY_CHANGE) else ():
         if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
