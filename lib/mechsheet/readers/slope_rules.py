@@ -222,11 +222,12 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     if kind.startswith("nan"):
         known = ~np.isnan(x)
         x, ahead, kind = x[known], ahead[:, known], kind.removeprefix("nan")
+    jumps = np.logical_or.reduce(np.isnan(ahead) & ~np.isnan(x), axis=1)  # one that does may be the extreme ahead
     places = kind in ("argmax", "argmin")
     if places and not np.isnan(y) and not np.isnan(x[int(y)]):  # of equal ones the first, until one is better
         equal = x == x[int(y)]
         better = np.max if kind == "argmax" else np.min
-        lost = better(ahead[:, equal], 1) != ahead[:, int(y)]
+        lost = jumps | (better(ahead[:, equal], 1) != ahead[:, int(y)])
         return Motion(np.where(lost, np.nan, 0.0), moves & lost)
     if kind == "sum":
         return Motion(ahead.sum(1), moves)
@@ -236,7 +237,7 @@ def reduced(kind: str, x: Values, y: Any, motion: Motion) -> Motion:
     if np.isnan(y) or places:
         return Motion(np.where(moves, np.nan, 0.0), moves)
     equal = x == y
-    return Motion((np.max if kind == "max" else np.min)(ahead[:, equal], 1), moves)
+    return Motion(np.where(jumps, np.nan, (np.max if kind == "max" else np.min)(ahead[:, equal], 1)), moves)
 
 
 def _still(node: Node, y: Values, values: Sequence[Values], operands: Sequence[Motion]) -> Motion:
