@@ -198,6 +198,19 @@ w = max(y - 2.5, 0) + y**2 + 3 * g.a  # [-] with a corner"""
         assert np.isnan(found.slopes["w"][0]) and found.reasons["F"] == "w jumps there, or ends", jump
 
 
+PICKED = [
+    "np.max(np.array([1.0, 2.0, 4.0])[np.array([3.0, 1.0, g.F]) > 2.5])",
+    "max([3.0] + [q for q in (4.0, 5.0) if g.F > 2.5])",
+]
+
+
+@pytest.mark.parametrize("text", PICKED)
+def test_the_greatest_of_what_is_picked_otherwise_just_beside_jumps(text, tmp_path):
+    found = sensitivity(own(tmp_path, f"\ns = {text} + g.a  # [-] greatest").path, ["s"])
+    assert np.isnan(found.slopes["s"][0]) and found.slopes["s"][1] == pytest.approx(1.0)
+    assert found.reasons == {"F": "s jumps there, or ends", "a": ""}
+
+
 def test_an_angle_that_wraps_there_has_no_slope(tmp_path):
     found = sensitivity(own(tmp_path, "\nt = np.angle(-g.a + 1j * (g.F - 2.5))  # [rad] half a turn").path, ["t"])
     assert np.isnan(found.slopes["t"][0]) and found.reasons == {"F": "t jumps there, or ends", "a": ""}

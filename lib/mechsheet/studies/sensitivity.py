@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.document.chart import COLOURS
+from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node
 from mechsheet.readers.bands import untold
 from mechsheet.readers.beside import beside
 from mechsheet.readers.numbers import numbers as recomputed
@@ -304,11 +306,14 @@ def _of_recording(
         if node and np.isnan([*here[node]]).all(0).any() and not lacking[name]:
             lacking[name] = seen([node], inputs)
     steps = stepping({node: here[node] for name, node in nodes.items() if node and not lacking[name]}, inputs)
-    exact = {name: node for name, node in nodes.items() if node and not lacking[name] and node not in steps}
+    turned = _turned(recording, nodes, inputs)
+    lost = {name for name, node in nodes.items() if node and (lacking[name] or node in steps or name in turned)}
+    exact = {name: node for name, node in nodes.items() if node and name not in lost}
     none = "it is no recorded number"
     why = dict.fromkeys((name for name in names if name not in exact), none)
     why |= {name: untold(node, recording.gaps) for name, node in lacking.items() if node}
     why |= {name: f"line {steps[node]} moves it by steps" for name, node in nodes.items() if node in steps}
+    why |= {name: f"line {line} goes another way just beside" for name, line in turned.items()}
     wanted = list(dict.fromkeys(exact.values()))
     off = {node: np.zeros_like(here[node].ahead) for node in wanted}
     rng = np.random.default_rng(0)
@@ -334,6 +339,14 @@ def _corner(name: str, slope: Slope, i: int) -> str:
         return f"{name} jumps there, or ends"
     ahead, behind = numbers.apart(sides)
     return f"{name} has a corner there: in SI its slope is {ahead} ahead and {behind} behind"
+
+
+def _turned(recording: Recording, names: Iterable[str], inputs: Sequence[Node]) -> dict[str, int]:
+    """The lines by which Python went its way for results, where it goes another one for an input a little off."""
+    guards = {name: [x for x in recording.looked.get(base(name), ()) if x.holds.op != "eq"] for name in names}
+    turns = slopes({guard.holds: 0 for each in guards.values() for guard in each}, inputs)
+    turned = {name: [x.line for x in each if np.isnan([*turns[x.holds]]).any()] for name, each in guards.items()}
+    return {name: found[0] for name, found in turned.items() if found}
 
 
 def _extrapolated(quotients: Array, widths: Array, size: float) -> tuple[Array, Array]:

@@ -57,10 +57,13 @@ class Column:
         if isinstance(self.values, list):
             kind = object if any(isinstance(value, str) for value in self.values) else None
             object.__setattr__(self, "values", np.array(self.values, kind))
-        if not isinstance(self.values, np.ndarray) or self.values.ndim != 1 or self.values.dtype.kind == "c":
+        array = self.values if isinstance(self.values, np.ndarray) else None
+        rows = array is not None and array.ndim == 1 and array.dtype.kind != "c"
+        if not rows and (array is not None or isinstance(self.values, str | complex | float | int | None)):
             told = "must be real numbers or texts, one a row"
             refuse(SheetError(f"column {self.symbol}: its values {told}, not {as_given(self.values)}"))
-        object.__setattr__(self, "values", unmasked(self.values))
+        if array is not None:
+            object.__setattr__(self, "values", unmasked(array))
         if not isinstance(self.decimals, int) or self.decimals < 0:
             given = as_given(self.decimals)
             refuse(SheetError(f"column {self.symbol}: its decimals must be a whole number >= 0, not {given}"))
