@@ -94,6 +94,9 @@ def test_mechanism_that_cannot_be_held_is_nan_there_alone() -> None:
     ("loads", "reactions", "message"),
     [
         ([[]], REACTIONS[:1], "body 1 has no load"),
+        ([], [], r"loads = \[\] must be a sequence of the loads of each body"),
+        (3, [], "loads = 3 must be a sequence of the loads of each body"),
+        ([[Load(1j, 0)]], "R12", "reactions = 'R12' must be a sequence of reactions"),
         ([[Load(0, 0)]], REACTIONS[:1], "1 unknown reactions for 3 equations"),
         ([[Load(0, 0)]], [PinReaction(2, 0, 0, 0)], r"reaction on the body 2 by the body 0: there are bodies 0..1"),
     ],

@@ -139,6 +139,10 @@ def test_requirements_that_exclude_each_other_are_told_so():
 def test_bounds_out_of_order_are_refused():
     with pytest.raises(SheetError, match=r"bounds of x = 2..1 must be in order"):
         found(lambda x, y: x, bounds={"x": (2.0, 1.0), "y": (0.0, 1.0)})
+    with pytest.raises(SheetError, match=r"bounds = \{\} must have those of at least one input"):
+        found(lambda x, y: x, bounds={})
+    with pytest.raises(SheetError, match=r"decimals = \{'x': 3\} must have those of y"):
+        search(lambda x: x, SQUARE, {"x": 3}, seed=1, generations=1, members=4)
 
 
 numbers = st.lists(st.tuples(st.integers(0, 6), st.integers(0, 6)), min_size=1, max_size=12)

@@ -230,6 +230,10 @@ def _size(matrix: NDArray[Any]) -> Float:
 
 
 def _numbered(loads: Sequence[Sequence[Load]], reactions: Sequence[Reaction]) -> None:
+    if not (isinstance(loads, list | tuple) and loads and all(isinstance(of_body, list | tuple) for of_body in loads)):
+        raise ValueError(f"loads = {loads!r} must be a sequence of the loads of each body")
+    if not (isinstance(reactions, list | tuple) and all(hasattr(r, "units") for r in reactions)):
+        raise ValueError(f"reactions = {reactions!r} must be a sequence of reactions")
     for body, of_body in enumerate(loads, start=1):
         if not of_body:
             raise ValueError(f"body {body} has no load; a zero one tells its pole")

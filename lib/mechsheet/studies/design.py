@@ -18,7 +18,7 @@ from mechsheet import units
 from mechsheet.run import arguments, report
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
-from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.scene import Limit
@@ -129,6 +129,10 @@ def search(
         Where no variant that was tried holds all requirements: the one that is missed most, what was reached, and what
         could be reached if it were the only one; or why none of them has a value.
     """
+    if not bounds:
+        raise SheetError("bounds = {} must have those of at least one input")
+    if missing := sorted(bounds.keys() - decimals.keys()):
+        raise SheetError(f"decimals = {as_given(dict(decimals))} must have those of {missing[0]}")
     for name, (low, high) in bounds.items():
         if not low <= high:
             ends = "..".join(numbers.significant(end, 6) for end in (low, high))
