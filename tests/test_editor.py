@@ -280,6 +280,8 @@ def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):
     table.press("b")  # a new cell below, to marimo
     page.get_by_role("figure", name="Figure 1 – Moment of the lever").locator(".ms-caption").click()
     expect(area).to_have_value(re.compile("^figure_1 = figure"))
+    area.fill(f"figure_1 = 1  # {'a long line ' * 30}")
+    assert area.evaluate("text => text.scrollHeight <= text.clientHeight"), "all of it is seen"
     area.press("Escape")
     assert page.locator(".marimo-cell").count() == count
     page.keyboard.press("Control+z")

@@ -50,7 +50,7 @@
   const box = document.createElement("div");
   box.className = "ms-box";
   box.innerHTML =
-    '<textarea spellcheck="false" aria-label="line of the worksheet"></textarea><div class="ms-typed"></div>' +
+    '<textarea rows="1" spellcheck="false" aria-label="line of the worksheet"></textarea><div class="ms-typed"></div>' +
     '<div class="ms-why" role="alert"></div><div class="ms-keys"><button data-do="write">write <kbd>Enter</kbd></button>' +
     '<button data-do="everywhere"></button><button data-do="below">new line below <kbd>Ctrl+Enter</kbd></button>' +
     '<button data-do="undo">undo <kbd>Ctrl+Z</kbd></button>' +
@@ -97,7 +97,6 @@
     area.value = text;
     offer([]);
     area.placeholder = EMPTY[of.name.startsWith("g.")];
-    area.rows = Math.max(text.split("\n").length, 1);
     document.body.append(box);
     keys.querySelector('[data-do="undo"]').hidden = !written.length;
     toView();
@@ -106,6 +105,13 @@
   function toView() {
     area.focus();
     toSight();
+    grow();
+  }
+
+  // As high as its text, whose rows may be longer than the box is wide.
+  function grow() {
+    area.style.height = "";
+    area.style.height = `${area.scrollHeight}px`;
   }
 
   function toSight() {
@@ -182,7 +188,7 @@
   }
 
   function typing() {
-    area.rows = Math.max(area.value.split("\n").length, 1);
+    grow();
     typed.classList.add("ms-former"); // until what stands there is of this text
     clearTimeout(timer);
     timer = setTimeout(() => of && (area.value.trim() || !of.below) && preview(), 200);
