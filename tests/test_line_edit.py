@@ -398,7 +398,10 @@ def test_what_marimo_has_saved_since_is_taken_back() -> None:
 def test_a_line_that_changes_its_name_does_so_everywhere_and_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It left all lines that read the name without a value, and only a command gave them the other one."""
+    """It left all lines that read the name without a value, and only a command gave them the other one.
+
+    One without a value takes its whole cell from the page, where it cannot be clicked any more: it is asked first.
+    """
     path, scene = tmp_path / "lever.py", tmp_path / "light.toml"
     path.write_text(TEMPLATE, encoding="utf-8")
     scene.write_text("[inputs]\nF = 3\n", encoding="utf-8")
@@ -409,6 +412,9 @@ def test_a_line_that_changes_its_name_does_so_everywhere_and_back(
     asked = {"name": "g.F", "was": line(TEMPLATE, "g.F"), "new": new}
     told = page.done("write", **asked)
     assert told["asks"].startswith("F goes, needed in") and told["renames"] == ["F", "F_0"]
+    lost = {"name": "n", "was": line(TEMPLATE, "n"), "new": "n = g.F.parts  # [-] levers"}
+    assert page.done("write", **lost)["asks"] == "it has no value, and without one its whole cell is not shown"
+    assert path.read_text(encoding="utf-8") == TEMPLATE
     told = page.done("write", everywhere=True, **asked)
     made = path.read_text(encoding="utf-8")
     assert f"    {new}\n" in made and "return g.F_0 * g.L * sin(phi)" in made and "g.F " not in made

@@ -87,7 +87,7 @@
   }
 
   // Another name for what is needed elsewhere can be written there too.
-  function offer([old, other]) {
+  function offer([old, other] = []) {
     const button = keys.querySelector('[data-do="everywhere"]');
     button.hidden = !other;
     button.innerHTML = `${old} becomes ${other} everywhere <kbd>Alt+Enter</kbd>`;
@@ -95,7 +95,7 @@
 
   function show(text) {
     area.value = text;
-    offer([]);
+    offer();
     area.placeholder = EMPTY[of.name.startsWith("g.")];
     document.body.append(box);
     keys.querySelector('[data-do="undo"]').hidden = !written.length;
@@ -196,7 +196,7 @@
   area.addEventListener("input", () => {
     of.left = "";
     of.sure = false; // of the text that was asked about
-    offer([]);
+    offer();
     typing();
   });
 

@@ -10,6 +10,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
+from contextlib import suppress
 from copy import deepcopy
 from ctypes import c_ulong, py_object, pythonapi
 from dataclasses import replace
@@ -52,6 +53,7 @@ _FILE = "__marimo__cell_in_place"  # under which a line is compiled
 _LINE = re.compile(r"line (\d+), ")
 _PATIENCE = 3  # seconds that a line may compute as one types
 _ALTERED = (np.ndarray, list, dict, set)  # what a line may alter, of which it is given a copy
+_BREAKS = "<i></i>"  # in the HTML of a line in which its cell would fail
 _UNSAVED = "a cell holds text that is not saved: run it and save it (Ctrl+S), then write here"
 
 
@@ -117,6 +119,8 @@ class InPlace:
         made = told.of(text)
         if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
             return {"asks": need, "renames": _renames(was, new)}
+        if do == "write" and not sure and self.breaks(text, told, name, was, new, below):
+            return {"asks": "it has no value, and without one its whole cell is not shown"}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)
@@ -140,6 +144,13 @@ class InPlace:
         for path, now in {self.path: whole, **made}.items():
             save(now.encode(), path)
         return {"written": told._asdict()}
+
+    def breaks(self, text: str, told: Change, name: str, was: str, new: str, below: bool) -> bool:
+        """Whether the cell of a line that is written would fail in it."""
+        if new and not name.startswith(OF_INPUT):
+            with suppress(SheetError):  # it is not known of what computes for long
+                return _BREAKS in self.preview(text, told, name, was, new, below)
+        return False
 
     def is_taken(self, text: str) -> bool:
         """Whether the cells of the page are those of the file."""
@@ -202,7 +213,7 @@ def _run(text: str, names: dict[str, Any]) -> None:
 
 def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, below: bool, names: dict[str, Any]) -> str:
     """HTML of a formula computed with the names of the page, and its mistakes."""
-    known, told, bound = set(names), list[str](), declares(ast.parse(new).body[0])
+    known, told, breaks, bound = set(names), list[str](), False, declares(ast.parse(new).body[0])
     late = _later(cells, name, was, below)
     names = {each: value for each, value in names.items() if each not in late}
     rows = formulas(source.of_texts(((new, _FILE),))[0])
@@ -218,6 +229,7 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
             lacks = str(error.name) if isinstance(error, NameError) else ""
             why = mistakes.why(error, known, new, mistakes.input_names(names))
             told.append(mistakes.late(lacks, lacks in bound) if lacks in late else why)
+            breaks = True
     there = tuple(row for row in rows if not told or not isinstance(row, Formula))
     numbers = tuple(names[row.name] if isinstance(row, Formula) else None for row in there)
     shown = values.html(Typeset(there, numbers, (), Numbers(names)))
@@ -230,7 +242,7 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
             told.append("it is not shown in the document: end the line in # [unit] meaning")
         own = {row.name: row for row in rows if isinstance(row, Formula) and row.has_value}
         shown += "".join(f"<div>{values.NOTE} {escape(where)}</div>" for _, where in numberless(names, own))
-    return shown + "".join(map(_mistake, told))
+    return shown + _BREAKS * breaks + "".join(map(_mistake, told))
 
 
 def _later(cells: Iterable[notebook.Cell], name: str, was: str, below: bool) -> set[str]:
