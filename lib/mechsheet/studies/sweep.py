@@ -293,7 +293,7 @@ def _by_name(sheet: Worksheet, variants: "Mapping[str, ArrayLike] | pd.DataFrame
                 raise SheetError(f"input {as_given(str(head))}: {error}") from None
             each = np.asarray(values, dtype=object)
             plain = [converted(x, unit, own) if isinstance(x, int | float) else f"{x} {unit}" for x in each.flat]
-            values = np.array([*plain, None], dtype=object)[:-1].reshape(each.shape)
+            values = np.fromiter(plain, object, each.size).reshape(each.shape)
         found[name] = values
     return found
 
