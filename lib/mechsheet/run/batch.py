@@ -384,7 +384,7 @@ def _told(tables: Iterable[Table]) -> Iterator[str]:
 
 def _printed(table: Table) -> list[list[str]]:
     """A table as it is printed: symbols, units, numbers."""
-    heads = [[c.symbol for c in table.columns], [f"[{numbers.in_text(c.unit)}]" for c in table.columns]]
+    heads = [[c.symbol for c in table.columns], [c.unit and f"[{numbers.in_text(c.unit)}]" for c in table.columns]]
     columns = [c.texts(numbers.PLAIN) for c in table.columns]
     return heads + [list(row) for row in zip(*columns, strict=True)]
 
