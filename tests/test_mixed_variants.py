@@ -59,6 +59,14 @@ def test_what_holds_of_one_number_says_nothing_of_others(tmp_path: Path, monkeyp
     assert sweep(sheet.path, ["result"], {"F": [1.0, 2.0]})["result"].tolist() == [3.0, 6.0]
 
 
+@pytest.mark.parametrize("k", [3, [3, 3]])
+def test_what_holds_of_one_way_says_nothing_of_another(k: object, tmp_path: Path) -> None:
+    """The next sweep went the way on which all variants have the greatest of them all, once another one had not."""
+    sheet = own(tmp_path, "y = g.F * 2 if g.k == 2 else np.max(g.F * np.arange(4))\nresult = y * 1.0  # [-] line")
+    assert sweep(sheet.path, ["result"], {"F": [1.0, 2.0]})["result"].tolist() == [2.0, 4.0]
+    assert sweep(sheet.path, ["result"], {"F": [1.0, 2.0], "k": k})["result"].tolist() == [3.0, 6.0]
+
+
 def test_variants_of_which_none_is_solved_alone_have_no_number_among_others(tmp_path: Path) -> None:
     """Two of them were a matrix, the product with which a Find had a solution for."""
     given = "np.array([1.0, 0.5]) @ (np.array([0.5, 2.0]) ** g.F) - 1.0"

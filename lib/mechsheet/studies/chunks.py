@@ -152,8 +152,7 @@ class Job:
 
         Raises NotPlanned or NotRecorded where it cannot.
         """
-        fixed = tuple((name, repr(x)) for name, x in columns.items() if not np.ndim(x))
-        key = self.path, self.digest, self.want, varied(columns), fixed, values
+        key = self.path, self.digest, self.want, varied(columns), fixed(columns), values
         if key not in _ways:
             while len(_ways) >= _WAYS:
                 _ways.pop(next(iter(_ways)), None)
@@ -417,6 +416,11 @@ def _fits(value: NDArray[Any], among: int | None) -> bool:
 def varied(columns: Mapping[str, Any]) -> tuple[str, ...]:
     """Inputs that are arrays of variants."""
     return tuple(name for name, x in columns.items() if np.ndim(x))
+
+
+def fixed(columns: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    """Inputs that all variants have in common, and what they are."""
+    return tuple((name, repr(x)) for name, x in columns.items() if not np.ndim(x))
 
 
 def _lacking(value: NDArray[Any]) -> NDArray[np.bool_]:

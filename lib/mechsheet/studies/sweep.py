@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.run.progress import on_terminal
 from mechsheet.run.silent import silently
-from mechsheet.studies.chunks import Job, Part, alike, digest, one_by_one, same_shape, varied
+from mechsheet.studies.chunks import Job, Part, alike, digest, fixed, one_by_one, same_shape, varied
 from mechsheet.studies.executed import computed
 from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs, lists
@@ -41,6 +41,7 @@ _RECORDINGS = 4  # variants that are recorded at most
 _PAYS = 100  # variants that take as long alone as a recording and its check, and more
 _ONE_BY_ONE = 50  # variants of a chunk that are run one by one
 _PROBES = 32  # variants tried alone until two of them are solved
+_KNOWN = 64  # worksheets and inputs that are known to take arrays of variants
 _SPREAD = np.argsort([int(f"{i:05b}"[::-1], 2) for i in range(_PROBES)])  # first, middle, quarters..
 
 
@@ -313,8 +314,9 @@ _taking_arrays: dict[Any, Job] = {}  # by worksheets, results and inputs that we
 
 def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[np.intp]) -> Job | None:
     """The job with all variants at once, where some give the same among each other as alone."""
-    names = varied(given.at(rows[:1]))
-    key = job, names
+    columns = given.at(rows[:1])
+    names = varied(columns)
+    key = job, names, fixed(columns)  # lines may go another way by those that no variant has of its own
     if not names or not rows.size:
         return job
     if key in _taking_arrays and rows.size < 10 * _CHUNK:  # of more a tenth of the time is for looking at these
@@ -352,6 +354,8 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
         if alone and not all(alike(alone.values[name], among.values[name][[i]]) for name in job.want):
             return None
     if all((x != x[0]).any() for x in given.at(compared).values() if np.ndim(x)):  # of one value others say nothing
+        while len(_taking_arrays) >= _KNOWN:
+            _taking_arrays.pop(next(iter(_taking_arrays)), None)
         _taking_arrays[key] = all_at_once
     return all_at_once
 
