@@ -11,6 +11,7 @@ from test_recalculation import computed, edit
 
 from mechsheet import evaluate, load
 from mechsheet.html import write
+from mechsheet.run import arguments
 from mechsheet.run.batch import compute
 from mechsheet.worksheet.check import checks_of
 from mechsheet.worksheet.scene import Limit, Scene
@@ -138,6 +139,20 @@ def test_a_check_is_wanted_by_its_name_however_that_is_put_together(name: str, t
     """Of a sum of texts it was said that no check has it, which the report tells beside its verdict."""
     sheet = own(tmp_path, f"from mechsheet import check\nstrong = check({name}, g.F, 5.0)")
     assert evaluate(sheet.path, ["line 3"], k=3)["line 3"].passed
+
+
+def test_a_wanted_check_that_is_not_there_has_not_passed(tmp_path: Path) -> None:
+    """A name with a value in it may be any: a scene that wanted another one than there is ended with exit code 0."""
+    sheet = own(tmp_path, "from mechsheet import check\nstrong = check(f'force, line {g.k}', g.F, 5.0)")
+    with pytest.raises(arguments.UsageError, match="no check is named 'force, line 4'; nearest: 'force, line 2'"):
+        compute(sheet, "scene", Scene(want=("force, line 4",)))
+    for results, want in (
+        (sheet.results, "force, line 2"),
+        (["force"], "force, line 2"),
+        (["strong"], "force, strong"),
+    ):
+        named = arguments.read([f"--want={want}"], (), results).want
+        assert named == (tuple(want.split(", ")) if "strong" in want else ("force, line 2",))
 
 
 def test_a_check_that_is_called_like_a_function_is_wanted_and_limited(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -45,12 +45,13 @@ _OF_A_RUN = ("scene", "out", "want", "tolerances")  # none of which may be empty
 
 
 @usage()
-def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
+def read(arguments: Sequence[str], declared: Sequence[Input], results: Container[str] = ()) -> Scene:
     """Scene from ``--scene=FILE``, ``--out=FOLDER``, ``--want=NAMES``, ``--NAME=VALUE``; the later holds.
 
     ``--tolerances`` stands alone, and ``--proof`` too or as ``--proof=DIGITS``.
 
-    Wanted are names with commas between them, or one check by its own; those of all ``--want`` together.
+    Wanted are names with commas between them, or one check by its own, which may have commas: none of what stands
+    between these is one of the ``results`` then. Those of all ``--want`` are wanted together.
 
     Raises UsageError for anything else, and for inputs that are not known or cannot be read.
     """
@@ -76,7 +77,8 @@ def read(arguments: Sequence[str], declared: Sequence[Input]) -> Scene:
             scene = replace(scene, out=_path(value))
         elif name == "want":
             names = [scenes.as_read(part.strip()) for part in value.split(",")]
-            wanted += names if all(base(part).isidentifier() for part in names) else [value]
+            known_to_be = not results or len(names) == 1 or any(base(part) in results for part in names)
+            wanted += names if known_to_be and all(base(part).isidentifier() for part in names) else [value]
         else:
             scene = replace(scene, inputs={**scene.inputs, scenes.as_read(name): value})
     fields = {field.name: field for field in declared}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from mechsheet.recording.memory import names_of
 from mechsheet.run import arguments, ending
-from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.inputs import build, declared
 from mechsheet.worksheet.kinds import Input
@@ -55,7 +55,8 @@ def unasked(sheet: Worksheet) -> None:
 
 def _of_script(worksheet: str, known: Sequence[Input]) -> Scene:
     """Scene from the arguments; one that wants only some results is answered here and now, and the script ends."""
-    scene = arguments.read(sys.argv[1:], known)
+    several = any(argument.startswith("--want=") and "," in argument for argument in sys.argv[1:])
+    scene = arguments.read(sys.argv[1:], known, load(worksheet).results if several else ())
     if scene.want:
         from mechsheet.run import batch  # on use: brings the writer of workbooks
 

@@ -25,7 +25,7 @@ from mechsheet.run.units_once import units_of
 from mechsheet.workbook import writing
 from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results
-from mechsheet.worksheet.cells import Worksheet, base, is_result, load
+from mechsheet.worksheet.cells import Worksheet, base, is_result, load, value
 from mechsheet.worksheet.check import Check, checks_of, refuse_open, unkept
 from mechsheet.worksheet.errors import SheetError, cut
 from mechsheet.worksheet.kinds import Input
@@ -95,6 +95,9 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
         named = next((check for check in judged if check.name == want), None)
         what = names[want] if is_result(want, names) else named
+        if what is None and not base(want).isidentifier():
+            with usage():
+                value(want, names)  # tells that there is no such check
         if isinstance(what, Table):
             tables.append(what)
         elif base(want).isidentifier() and not _is_check(what):
@@ -246,7 +249,7 @@ def _inputs(sheet: Worksheet, file: Path, options: Sequence[str]) -> Any:
 def attempt(sheet: Worksheet, file: Path, options: Sequence[str], out: Path | None) -> Outcome:
     """Outcome of the scene of a file; whatever goes wrong stays its own."""
     try:
-        given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs))
+        given = read([f"--scene={file}", *options], inputs.declared(sheet.inputs), sheet.results)
         outcome, names = compute(sheet, file.stem, given)
         if out and not given.want:
             title = f"{sheet.title}: {file.stem}"
