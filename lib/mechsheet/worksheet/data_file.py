@@ -72,6 +72,8 @@ def columns(path: Path, wanted: Mapping[str, str | None]) -> Columns:
 
     Raises SheetError naming the file, and the row and column of what cannot be used.
     """
+    if path.suffix.lower() in OTHER_SPREADSHEETS:
+        raise SheetError(f"file {path} cannot be read: save it as .csv or .xlsx")
     rows, apart = (_book(path), "") if path.suffix.lower() == ".xlsx" else _text(path)
     if not rows:
         raise SheetError(f"file {path} is empty")

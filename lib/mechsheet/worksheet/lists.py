@@ -40,11 +40,8 @@ class Rows(Input):
         A row of a text ends with its line or with ``|``, its cells are apart by ``;`` or a tab; a text that ends
         as the name of a file does is one, in the current folder or beside the worksheet.
         """
-        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS):
+        if isinstance(value, str) and value.strip().lower().endswith(data_file.ENDINGS + data_file.OTHER_SPREADSHEETS):
             return self.of_file(Path(value.strip()))
-        if isinstance(value, str) and value.strip().lower().endswith(data_file.OTHER_SPREADSHEETS):
-            told = f"{self.meaning} {self.name} = {errors.as_given(value)} cannot be read: save it as .csv or .xlsx"
-            raise SheetError(told, self.name)
         given = self._columns(value)
         count = {len(xs) for xs in given.values()}
         if len(count) > 1:
