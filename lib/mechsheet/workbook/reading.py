@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import chain, islice
@@ -124,11 +124,19 @@ def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict
     known = {column.name: column for field in tables for column in field.columns}
     top, at, units, rows = _heads(path, rows, known)
     elements: dict[str, list[object]] = {name: [] for name in at}
+    formulas = _formulas(path, at.values())
+    below = set[str]()  # lists of which an empty row has been passed over
     for number, row in rows:
         for field in tables:
             names = [column.name for column in field.columns if column.name in at]
-            if all(row[at[name]] is None for name in names):
+            if all(row[at[name]] is None and (number, at[name]) not in formulas for name in names):
+                below |= {name for name in names if name == field.name and elements[name]}
                 continue
+            formula = formulas.get((number, at[names[0]]), "")
+            if field.name in below and "(" in formula:  # such as the sum of the list
+                cell, remedy = _Cell(path, _TABLES, number, at[names[0]]), f"fill the rows of {field.name} above"
+                raise SheetError(f"{cell}: {cut(formula)} stands below an empty row: take it out, or {remedy}")
+            below.discard(field.name)
             for name in names:
                 column = replace(known[name], name=f"{name} ({len(elements[name]) + 1})")
                 cell, unit = _Cell(path, _TABLES, number, at[name]), _Cell(path, _TABLES, top + 1, at[name])
@@ -143,6 +151,13 @@ def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict
                 raise SheetError(f"workbook {path}, sheet {_TABLES}: {error}") from None
             found[field.name] = lists
     return found
+
+
+def _formulas(path: Path, columns: Collection[int]) -> dict[tuple[int, int], str]:
+    """Formulas in some columns of the sheet Input tables, by row and column: not every one has a value."""
+    with _book(path, values=False) as book:
+        cells = ((number, column, row[column]) for number, row in _rows(path, book, _TABLES) for column in columns)
+        return {(number, column): x for number, column, x in cells if isinstance(x, str) and x.startswith("=")}
 
 
 def _heads(
