@@ -10,6 +10,7 @@ import pytest
 from own_worksheet import own
 
 from mechsheet.accuracy.arithmetic import mp, mpf
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.bends import BENT, bends
 from mechsheet.readers.slope_rules import SMOOTH
 from mechsheet.recording.record import record
@@ -24,7 +25,7 @@ def second(folder: Path, lines: str, directions: Any, **given: Any) -> dict[str,
     sheet = own(folder, lines)
     names = sheet.run(sheet.results, {"g": sheet.inputs(**given)})
     recording = record({**names, "__file__": sheet.path}, sheet, whole=True)
-    nodes = {name: x.whole().re for name, x in recording.values.items() if name in lines and hasattr(x, "whole")}
+    nodes = {name: x.whole().re for name, x in recording.values.items() if name in lines and isinstance(x, Quantity)}
     found = bends(nodes.values(), [recording.inputs["F"], recording.inputs["a"]], np.array(directions, float))
     return {name: found[node] for name, node in nodes.items()}
 

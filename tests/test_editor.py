@@ -129,7 +129,9 @@ def edit_in_place(editor):
     area.fill("M_S = 2 * M(phii)  # [N*m] moment over the positions")
     box.get_by_text("the name phii is not defined in any cell (did you mean phi?)").wait_for()
     area.press("Enter")
-    box.get_by_text("it has no value, and without one its whole cell is not shown: Enter once more writes it").wait_for()
+    box.get_by_text(
+        "it has no value, and without one its whole cell is not shown: Enter once more writes it"
+    ).wait_for()
     area.fill("M_S = 2 * M(phi)  # [N*m] moment over the positions")
     box.get_by_text("840 N·m").wait_for()
     assert file.read_bytes() == before

@@ -25,8 +25,6 @@ HITCH, GUIDE = (Path(__file__).parents[1] / "worksheets" / f"{name}.py" for name
         ({"want": 5}, "want = 5 must be a list of names"),
         ({"want": ["GS6", 5]}, r"want = \['GS6', 5\] must be a list of names"),
         ({"want": None}, "want = None must be a list of names"),
-        ({"want": []}, r"want = \[\] must be a list of names"),
-        ({"variants": {}}, "variants name no input that varies: evaluate computes"),
         ({"variants": [1, 2]}, r"variants = \[1, 2\] must be a mapping of inputs to their values, or a DataFrame"),
         ({"variants": None}, "variants = None must be a mapping"),
         ({"variants": {"P6": [[1], [1, 2]]}}, r"P6 = \[\[1\], \[1, 2\]\] N is no array of numbers"),

@@ -223,10 +223,10 @@ def sensitivity(
     ----------
     C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
-    names, given = asked(want), by_name(worksheet, given)
+    names, given = asked(want, least=1), by_name(worksheet, given)
     fields, at = point(worksheet, given)
     every = [x for x, field in fields.items() if field.continuous]
-    chosen = every if inputs is None else asked(inputs, "inputs", next(iter(fields)))
+    chosen = every if inputs is None else asked(inputs, "inputs", next(iter(fields)), 1)
     for x in chosen:
         continuous(fields, x, "cannot be differentiated by")
     exact, why = _of_recording(worksheet, names, chosen, given)

@@ -214,8 +214,6 @@ def sweep(
     sheet, want = load(path), asked(want)
     if not hasattr(variants, "items"):
         raise SheetError(f"variants = {as_given(variants)} must be a mapping of inputs to their values, or a DataFrame")
-    if not len(variants.keys()):
-        raise SheetError("variants name no input that varies: evaluate computes a worksheet as it stands")
     if not isinstance(chunk, int) or chunk < 1:
         raise SheetError(f"chunk = {as_given(chunk)} variants must be at least 1 and whole")
     if not (executor is None or callable(executor) or hasattr(executor, "submit")):

@@ -193,10 +193,10 @@ class Worksheet:
         raise SheetError(f"{self.path}: no cell gives g, as which inputs are read: g = read(..)")
 
 
-def asked(want: Iterable[str], what: str = "want", such: str = "GS6") -> tuple[str, ...]:
-    """Wanted names, each once; SheetError where they are something else, such as one name alone, or none."""
+def asked(want: Iterable[str], what: str = "want", such: str = "GS6", least: int = 0) -> tuple[str, ...]:
+    """Wanted names, each once, so many at least; SheetError where they are something else, such as one name alone."""
     names: list[object] = [want] if isinstance(want, str) or not isinstance(want, Iterable) else list(want)
-    if not names or names == [want] or not all(isinstance(name, str) for name in names):
+    if names == [want] or len(names) < least or not all(isinstance(name, str) for name in names):
         raise SheetError(f"{what} = {as_given(want)} must be a list of names, such as {[such]}")
     return tuple(dict.fromkeys(map(str, names)))
 

@@ -49,7 +49,7 @@ class Check(Shown):
     def __post_init__(self) -> None:
         texts(f"check {self.name}", name=self.name, unit=self.unit)
         for what, x in (("residual", self.residual), ("limit", self.limit)):
-            if not isinstance(x, Real) and (getattr(x, "ndim", 0) or not hasattr(x, "dtype")):
+            if not isinstance(x, Real) and (np.ndim(x) or not hasattr(x, "dtype")):
                 refuse(SheetError(f"check {self.name}: its {what} must be one number, not {as_given(x)}"))
 
     @property
