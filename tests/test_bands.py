@@ -393,6 +393,8 @@ check_4 = check("size", 3 * s, 10)
 check_5 = check("there", z, 1)
 check_6 = check("far", e, 1.1)
 t = cos(2 * np.pi * g.F)  # [-] the same at both ends
+v = np.arcsin(min(g.F / 2.5, 1.0))  # [-] upright at the value itself
+check_8 = check("upright", v, at_least=1.6)
 check_7 = check("turning", np.angle(exp(1j * 1.2 * g.F)), at_least=-2.6)"""
 
 
@@ -407,6 +409,8 @@ def test_what_slopes_mislead_about_is_told_by_cases(tmp_path):
     by_name = {b.name: b.cells() for b in found.banded}
     assert re.match(r"it bends: \S+\.\.1 in 1000 random cases", by_name["e"][-1])
     assert re.match(r"it bends: -1\.\.\S+ in 1000 random cases", by_name["t"][-1])
+    assert re.match(r"it bends: 0\.64\d+\.\.1\.5708 in 1000 random cases", by_name["v"][-1])
+    assert found.sure["upright"] == "in all of 1000 random cases (it bends)", "it is a quarter of a turn at most"
     assert by_name["s"][-1].startswith("it bends: 2..5 in") and by_name["z"][-1] == "it ends within the tolerances"
 
 

@@ -198,7 +198,7 @@ class Bands:
         known, worst = np.isfinite(node.value), self.known[node].worst
         rounding = max(_ROUNDING * size_of(node), _LEFT * made_of(node, self.recording.made_of))
         within = MISLED * worst + rounding
-        bends = False
+        bends = bool(np.isinf(worst[known]).any())
         for there in self.there:
             if not all(there[guard].all() for guard in guards):
                 bends = True
@@ -237,6 +237,8 @@ class Bands:
         Where they say in how many cases it holds, whether its least reserve at an end is another one than by them.
         """
         nodes = [*self.compared(residual), *residual.parts]
+        if np.isinf(reserves[1:]).any():
+            return True
         self.look(nodes)
         most, rounding = np.abs(reserves[1:]).sum(0), _ROUNDING * float(np.max(np.abs(reserves[0]), initial=0.0))
         k = int(np.argmin(reserves[0] - most))

@@ -69,10 +69,14 @@ class Cases:
 
 
 def is_outside(values: Values, least: Values, greatest: Values, worst: Values) -> bool:
-    """Whether numbers get farther off than by the worst of a band, as it is shown; so they do where that is none."""
+    """Whether numbers get farther off than by the worst of a band, as it is shown; so they do where that is none.
+
+    An infinite one, as of the slope of a root at 0, tells of nothing either.
+    """
     own, low, high = (np.reshape(x, -1) for x in (values, least, greatest))
     known = np.isfinite(own)
-    within = _AS_SHOWN * np.reshape(worst, -1) + _ROUNDING * np.max(np.abs(own), initial=0.0, where=known)
+    finite = np.where(np.isinf(worst), np.nan, worst)
+    within = _AS_SHOWN * np.reshape(finite, -1) + _ROUNDING * np.max(np.abs(own), initial=0.0, where=known)
     return bool(np.any(known & ~((high - own <= within) & (own - low <= within))))
 
 
