@@ -95,7 +95,7 @@ def compute(sheet: Worksheet, name: str, given: Scene) -> tuple[Outcome, dict[st
     for want in dict.fromkeys([*(given.want or found), *given.limits]):
         named = next((check for check in judged if check.name == want), None)
         what = names[want] if is_result(want, names) else named
-        if what is None and not base(want).isidentifier():
+        if what is None and want in given.want and not base(want).isidentifier():
             with usage():
                 value(want, names)  # tells that there is no such check
         if isinstance(what, Table):
