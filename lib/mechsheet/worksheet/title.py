@@ -95,7 +95,8 @@ def slider(
     """
     made, of = Slider(start, stop, step, start if value is None else value, label, unit), label or "without a label"
     for what, x in {"start": start, "stop": stop, "value": made.value, "step": 1 if step is None else step}.items():
-        if not isinstance(x, Real) or (what == "step" and not x > 0):
+        one = isinstance(x, Real) or getattr(x, "ndim", 1) == 0
+        if not one or (what == "step" and isinstance(x, Real) and not x > 0):
             kind = "a number > 0" if what == "step" else "one number"
             refuse(SheetError(f"slider {of}: {what} = {as_given(x)} must be {kind}"))
     measured(unit, f"slider {of}")
