@@ -12,7 +12,7 @@ import pytest
 from conftest import ROOT
 from hypothesis import settings
 
-from mechsheet import find
+from mechsheet import Check, find
 from mechsheet.page import in_place, notebook, values
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
@@ -474,3 +474,19 @@ def test_what_a_line_gives_to_be_shown_is_shown_and_counted(
         ]
         assert [a.arg for a in cell(made, "verdict").args.args] == wanted
         assert made.count("\r\n") == (made.count("\n") if text != TEMPLATE else 0)
+
+
+def test_a_line_reads_what_its_cell_keeps_to_itself() -> None:
+    """marimo forgets names with _ once the cell has run: the editor told that they are defined nowhere."""
+    code = "_c = 2.0\n_k = 3 * _c\nG = 1.0\nF = _k * L  # [N] force\n_late = 1.0"
+    cells = [notebook.Cell("Hbol", code, "", frozenset({"F", "G"}), frozenset({"L"}), None, None, False)]
+    was = "F = _k * L  # [N] force"
+
+    def shown(new: str) -> str:
+        return in_place._computed(cells, "F", was, new, False, {"L": 0.5})
+
+    assert "si='[[3.0]]'" in shown(was) and "mistake" not in shown(was)
+    assert "mistake" in shown("F = _late * L  # [N] force") and "mistake" in shown("F = _m * L  # [N] force")
+    two = 'c = (Check("a", 1.0, 2.0), Check("b", 3.0, 2.0))'
+    checks = in_place._computed((), "c", "c = 1", two, False, {"Check": Check})
+    assert ">PASS<" in checks and ">FAIL<" in checks and "mistake" not in checks, "several are shown"

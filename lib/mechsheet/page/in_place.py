@@ -8,7 +8,7 @@ import json
 import linecache
 import re
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from concurrent.futures import Future
 from contextlib import suppress
 from copy import deepcopy
@@ -214,7 +214,8 @@ def _run(text: str, names: dict[str, Any]) -> None:
 def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, below: bool, names: dict[str, Any]) -> str:
     """HTML of a formula computed with the names of the page, and its mistakes."""
     known, told, breaks, bound = set(names), list[str](), False, declares(ast.parse(new).body[0])
-    late = _later(cells, name, was, below)
+    above, rest = _parted(cells, name, was, below)
+    late = {*chain(*map(source.bound, rest))}.difference(*map(source.bound, above))  # which it cannot read
     names = {each: value for each, value in names.items() if each not in late}
     rows = formulas(source.of_texts(((new, _FILE),))[0])
     read = {node.id for node in ast.walk(ast.parse(new)) if isinstance(node, ast.Name)}
@@ -223,6 +224,7 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
         told.append(f"{slow[0]} computes for long: the value follows once the line is written")
     else:
         try:
+            _run(_private(above, read), names)
             _run(new, names)
             told += filter(None, (no_number(row, names[row.name]) for row in rows if isinstance(row, Formula)))
         except Exception as error:
@@ -234,7 +236,8 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
     numbers = tuple(names[row.name] if isinstance(row, Formula) else None for row in there)
     shown = values.html(Typeset(there, numbers, (), Numbers(names)))
     if not told:
-        shown += "".join(values.html(names[each]) for each in sorted(bound) if isinstance(names[each], Shown))
+        given = chain.from_iterable(_several(names[each]) for each in sorted(bound))
+        shown += "".join(values.html(each) for each in given if isinstance(each, Shown))
         said = {row.mistake for row in rows if isinstance(row, Formula)}  # which stands behind its value
         unfit = _unfit(cells, name, was, f"{was}\n{new}" if below else new, new, names)
         told += (text for text in unfit if text.partition(": ")[2] not in said)
@@ -245,14 +248,29 @@ def _computed(cells: Iterable[notebook.Cell], name: str, was: str, new: str, bel
     return shown + _BREAKS * breaks + "".join(map(_mistake, told))
 
 
-def _later(cells: Iterable[notebook.Cell], name: str, was: str, below: bool) -> set[str]:
-    """Names that the cell of a line gives in this line, or below it, and not above: the line cannot read them."""
+def _several(value: Any) -> Sequence[Any]:
+    """What a line gives, which may be several checks."""
+    return value if isinstance(value, list | tuple) else (value,)
+
+
+def _parted(cells: Iterable[notebook.Cell], name: str, was: str, below: bool) -> tuple[list[ast.stmt], list[ast.stmt]]:
+    """Statements of the cell of a line above it, and from it on."""
     for cell in cells:
         if name in cell.defs and was in cell.code:
             body = ast.parse(cell.code).body
             at = next((n for n, node in enumerate(body) if name in declares(node)), len(body)) + below
-            return {*chain(*map(source.bound, body[at:]))}.difference(*map(source.bound, body[:at]))
-    return set()
+            return body[:at], body[at:]
+    return [], []
+
+
+def _private(above: Iterable[ast.stmt], read: Set[str]) -> str:
+    """What gives the names with ``_`` that a line reads: marimo forgets those that a cell keeps to itself."""
+    kept, needed = list[str](), {name for name in read if name.startswith("_")}
+    for node in reversed([*above]) if needed else ():
+        if not needed.isdisjoint(bound := source.bound(node)) and all(name.startswith("_") for name in bound):
+            kept.insert(0, ast.unparse(node))
+            needed |= {each.id for each in ast.walk(node) if isinstance(each, ast.Name) and each.id.startswith("_")}
+    return "\n".join(kept)
 
 
 def _unfit(
