@@ -243,10 +243,8 @@ def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
 def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:
     if not both:
         return np.nonzero(condition)
-    words = text_column.Texts, Quantity, list, tuple
-    if not any(
-        isinstance(v, words[:1]) or np.asarray(v).dtype.kind == "U" for v in both if not isinstance(v, words[1:])
-    ):
+    plain = [each for each in both if not isinstance(each, Quantity | list | tuple)]
+    if not any(isinstance(each, text_column.Texts) or np.asarray(each).dtype.kind == "U" for each in plain):
         graph.go_together(*(part for each in (condition, *both) for part in lift(graph, each).parts), hidden=True)
     return text_column.chosen(graph, condition, *both)
 

@@ -27,6 +27,7 @@ from mechsheet.studies.executed import computed
 from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs, lists
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
+from mechsheet.worksheet.data_file import HEAD
 from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
 from mechsheet.worksheet.kinds import converted
 from mechsheet.worksheet.table import heading
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 T = TypeVar("T")
-_HEAD = re.compile(r"\s*(\w+)\s*\[([^\]]*)\]\s*")
 _CHUNK = 2000  # variants: their fields of some tens of positions fit a processor's cache, see tests/benchmarks
 _RECORDINGS = 4  # variants that are recorded at most
 _PAYS = 100  # variants that take as long alone as a recording and its check, and more
@@ -280,8 +280,8 @@ def _by_name(sheet: Worksheet, variants: "Mapping[str, ArrayLike] | pd.DataFrame
     """Values by the names of the inputs, each in its own unit: a head such as ``r [cm]`` tells that of its column."""
     found, fields = dict[str, Any](), {field.name: field for field in inputs.declared(sheet.inputs)}
     for head, values in variants.items():
-        match = _HEAD.fullmatch(str(head))
-        name, unit = match.groups() if match else (str(head), "")
+        match = re.fullmatch(HEAD, str(head))
+        name, unit = match.groups() if match and match[2] is not None else (str(head), "")
         if name in found:
             raise SheetError(f"input {name} is given twice")
         own = inputs.known(fields, name).unit

@@ -14,6 +14,7 @@ from openpyxl import load_workbook  # type: ignore[import-untyped]
 from openpyxl.utils import get_column_letter  # type: ignore[import-untyped]
 
 from mechsheet.units import shown
+from mechsheet.worksheet.data_file import in_per_cent
 from mechsheet.worksheet.errors import SheetError, cut, nearest
 from mechsheet.worksheet.kinds import Choice, Input
 from mechsheet.worksheet.lists import Rows
@@ -289,7 +290,7 @@ def _rows(path: Path, book: Any, name: str) -> Iterator[_Row]:
 def _held(cell: Any) -> Any:
     """The value of a cell; a number that is shown in per cent is marked."""
     value, form = cell.value, cell.number_format
-    return _PerCent(value) if type(value) in (int, float) and form and form.endswith("%") else value
+    return _PerCent(value) if in_per_cent(value, form) else value
 
 
 def _text(value: object) -> str:

@@ -5,7 +5,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from math import isnan
-from numbers import Real
 from typing import Any, overload
 
 import numpy as np
@@ -17,7 +16,7 @@ from mechsheet.mechanics.differences import derivative
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.equations import common_shape, real_numbers
-from mechsheet.worksheet.errors import SheetError, as_given, function, measured, refuse, texts
+from mechsheet.worksheet.errors import SheetError, as_given, function, is_one, measured, refuse, texts
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
@@ -49,7 +48,7 @@ class Check(Shown):
     def __post_init__(self) -> None:
         texts(f"check {self.name}", name=self.name, unit=self.unit)
         for what, x in (("residual", self.residual), ("limit", self.limit)):
-            if not isinstance(x, Real) and (np.ndim(x) or not hasattr(x, "dtype")):
+            if not is_one(x):
                 refuse(SheetError(f"check {self.name}: its {what} must be one number, not {as_given(x)}"))
 
     @property

@@ -19,7 +19,7 @@ from mechsheet.worksheet.kinds import number
 ENDINGS = (".csv", ".tsv", ".txt", ".xlsx")
 OTHER_SPREADSHEETS = (".ods", ".xls", ".xlsm", ".xlsb", ".numbers")  # of which none is read
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "none", "null", "-"])  # as programs write what was not measured
-_HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
+HEAD = r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*"
 _NAME = re.compile(rf"""["']([^"'\n]+(?:{"|".join(map(re.escape, ENDINGS))}))["']""", re.IGNORECASE)
 _EMPTY = ' \t;,"'  # all that a row of empty cells has, as spreadsheet programs write those below the last number
 _APART = re.compile(r"sep=.?", re.IGNORECASE)  # a first line that tells Excel the sign between cells
@@ -80,7 +80,7 @@ def columns(path: Path, wanted: Mapping[str, str | None]) -> Columns:
     (first, heads), *body = rows
     units, at = dict[str, str](), dict[str, int]()
     for n, head in enumerate(heads):
-        match = re.fullmatch(_HEAD, str(head))
+        match = re.fullmatch(HEAD, str(head))
         if match and match[1] in at:
             raise SheetError(f"file {path}, row {first}: column {match[1]} stands there twice")
         if match:
@@ -174,6 +174,11 @@ def _book(path: Path) -> list[tuple[int, list[Any]]]:
 
 def _as_shown(value: Any, form: str | None) -> Any:
     """The value of a cell, of which a spreadsheet program may show per cent: 0.85 as 85 %."""
-    if isinstance(value, int | float) and not isinstance(value, bool) and form and form.rstrip("_ )").endswith("%"):
+    if in_per_cent(value, form):
         return f"{numbers.significant(100 * value, 15)} %"
     return "" if value is None else value
+
+
+def in_per_cent(value: Any, form: str | None) -> bool:
+    """Whether a cell of this number format shows its number in per cent."""
+    return type(value) in (int, float) and form is not None and form.rstrip("_ )").endswith("%")

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from numbers import Real
 from typing import Any, NoReturn
 
 from mechsheet import units
@@ -87,6 +88,11 @@ def refuse(error: SheetError, shown: Any = None) -> NoReturn:
     if "marimo" in sys.modules and not _called.get():
         values.page().refused(error, shown)
     raise error
+
+
+def is_one(x: Any) -> bool:
+    """Whether something is one real number, or an array or a recorded quantity of one."""
+    return isinstance(x, Real) or getattr(x, "ndim", 1) == 0
 
 
 def measured(unit: str, of: str = "") -> units.Unit:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Any, NamedTuple
 
-from mechsheet.worksheet.errors import SheetError, as_given, measured, refuse
+from mechsheet.worksheet.errors import SheetError, as_given, is_one, measured, refuse
 from mechsheet.worksheet.shown import Shown, page
 
 
@@ -95,8 +95,7 @@ def slider(
     """
     made, of = Slider(start, stop, step, start if value is None else value, label, unit), label or "without a label"
     for what, x in {"start": start, "stop": stop, "value": made.value, "step": 1 if step is None else step}.items():
-        one = isinstance(x, Real) or getattr(x, "ndim", 1) == 0
-        if not one or (what == "step" and isinstance(x, Real) and not x > 0):
+        if not is_one(x) or (what == "step" and isinstance(x, Real) and not x > 0):
             kind = "a number > 0" if what == "step" else "one number"
             refuse(SheetError(f"slider {of}: {what} = {as_given(x)} must be {kind}"))
     measured(unit, f"slider {of}")
