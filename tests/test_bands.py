@@ -281,6 +281,13 @@ def test_what_is_guaranteed_is_not_of_cases_beyond_a_normal_tolerance(distributi
     assert out.count("no guaranteed bound holds") == told == (float(least) < float(low))
 
 
+def test_a_bound_is_shown_rounded_so_that_it_still_holds(tmp_path, capsys):
+    sheet = off(tmp_path, 9, "± 1", "", "\ns = 2 * g.F / 3  # [-] part\nt = 7 - 2 * g.F / 3  # [-] rest")
+    batch.answer(sheet.path, arguments.read(["--tolerances", "--want=s,t"], declared(sheet.inputs)))
+    found = re.findall(r"^\d\S* .* (\S+)\.\.(\S+)$", capsys.readouterr().out, re.MULTILINE)
+    assert found == [("1", "2.33334"), ("4.66666", "6")], "F is 2.5 with a tolerance of 1: 7 / 3 and 14 / 3 lie between"
+
+
 CHOSEN = """
 kinds = {"small": 1.0, "large": 2.0}
 kind = "small" if g.F < 3 else "large"

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from functools import cache, partial
 from itertools import chain
 from typing import Any
@@ -29,6 +30,8 @@ from mechsheet.worksheet.table import Table
 
 _CASES = 1000  # of Monte Carlo
 _WIDE = 5.0  # times the worst case of the slopes: wider bounds tell nothing
+_DIGITS = 6  # that are shown of a result and its ends
+_SLACK = 2.0**-25  # of the width of a bound, which balls keep to 30 bits: no reason to show a wider one
 _MOST = 3  # inputs that are named as those that matter
 
 
@@ -178,8 +181,8 @@ def _in_all_ways(
     any_narrow = bool(narrow.any())
     rows = [[*heads, *["guaranteed"] * any_narrow]]
     for k, value in enumerate(values):
-        row = [numbers.significant(value, 6), *(about(x[k]) for x in (worst, squares))]
-        bound = _ends(low[k], high[k]) if narrow[k] else numbers.CELL.none
+        row = [numbers.significant(value, _DIGITS), *(about(x[k]) for x in (worst, squares))]
+        bound = _ends(*_outwards(low[k], high[k])) if narrow[k] else numbers.CELL.none
         rows.append([*row, _ends(least[k], greatest[k]), *[bound] * any_narrow])
     yield from numbers.aligned(rows)
     if sampled.lost:
@@ -222,7 +225,21 @@ def _mattering(line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterat
         yield f"{[*by][i]} (± {off(moves[i])}{numbers.suffix(line.unit)})"
 
 
+def _outwards(low: float, high: float) -> tuple[float, float]:
+    """A bound at the digits that are shown, rounded so that it still holds.
+
+    >>> _outwards(0.12345649, 2.0000001), _outwards(0.1234564, 2.0000000000000004)
+    ((0.123456, 2.00001), (0.123456, 2.0))
+    """
+    ends, slack = [], _SLACK * (high - low)
+    for end, way in ((low, ROUND_FLOOR), (high, ROUND_CEILING)):
+        near = float(numbers.significant(end, _DIGITS))
+        holds = near <= end + slack if way is ROUND_FLOOR else near >= end - slack
+        ends.append(near if holds else float(Context(_DIGITS, way).create_decimal(end)))
+    return ends[0], ends[1]
+
+
 def _ends(low: float, high: float) -> str:
     if np.isnan(low):
         return numbers.CELL.none
-    return numbers.span(numbers.significant(float(end), 6) for end in (low, high))
+    return numbers.span(numbers.significant(float(end), _DIGITS) for end in (low, high))
