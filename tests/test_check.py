@@ -203,11 +203,6 @@ def test_what_has_no_number_is_not_evaluated_and_no_pass():
     assert shown.index(">b<") < shown.index("moments of") < shown.index(">a<"), "what fails first"
 
 
-def test_limits_of_an_assembly_are_two():
-    with pytest.raises(SheetError, match="assembled 'loop': reaches must be the two limits of angle, got 0"):
-        assembled("loop", np.array([1.0]), np.array([1.0]), (), "angle", "deg")
-
-
 @pytest.mark.parametrize(
     ("given", "told"),
     [
@@ -230,6 +225,16 @@ SOLUTION = find(lambda x, y: (x - 1, y - 1), x=0.0, y=0.0)
 OTHERS = [
     (lambda: check("a", [[1.0], [1.0, 2.0]], 1.0), "check a: its residual must be numbers, not [[1.0], [1.0, 2.0]]"),
     (lambda: Check("a", np.array([1.0, 3.0]), 2.0), "check a: its residual must be one number, not [1. 3.]"),
+    (lambda: check("a", 1.0, "b", of=2.0), "check a: its limit must be one number, not 'b'"),
+    (lambda: check("a", 1.0, [1, 2], of=2.0), "check a: its limit must be one number, not [1, 2]"),
+    (lambda: check("a", 1.0, True, of=2.0), "check a: its limit is a condition, which is no number"),
+    (lambda: check("a", 1.0, 1e-6, of="big"), "check a: of= must be numbers, not 'big'"),
+    (lambda: check("a", 1.0, 1e-6, of=[[1], [1, 2]]), "check a: of= must be numbers, not [[1], [1, 2]]"),
+    (lambda: assembled("a", 1.0, 1.0, (), "S", "m"), "check a: reaches must be the two limits of S, not ()"),
+    (lambda: assembled("a", 1.0, 1.0, 5, "S", "m"), "check a: reaches must be the two limits of S, not 5"),
+    (lambda: assembled("a", "x", 1.0, (0, 2), "S", "m"), "check a: its points must be numbers, not 'x'"),
+    (lambda: require(np.nan, 1.0, "ab", "S", "m"), "require: reaches must be the two limits of S, not 'ab'"),
+    (lambda: require(np.nan, 1.0, (0, 2), "S", "mmm"), "require: unit [mmm] is not known"),
     (lambda: Check("a", 1.0, None), "check a: its limit must be one number, not None"),
     (lambda: Check("a", 1.0, 2.0, "m").shown_in("N"), "check a: N does not measure m"),
     (lambda: check_slope("a", 1.0, "x", 0.5, 0, 1), "check_slope takes a function of what is unknown"),

@@ -221,11 +221,14 @@ def check(
         return judged(name, residual, at_least, unit, at_least=True)
     if limit is None:
         refuse(SheetError(f"check {name}: it has no limit: give the limit behind the quantity, or at_least="))
-    if of is None:
+    if of is None or not is_one(limit) or isinstance(limit, bool | np.bool_):  # which is refused there
         return judged(name, residual, limit, unit)
+    try:
+        size = float(np.max(np.abs(of), initial=0.0))
+    except (TypeError, ValueError):  # of numpy's: they do not say of what
+        refuse(SheetError(f"check {name}: of= must be numbers, not {as_given(of)}"))
     if isinstance(of, np.ndarray | list | tuple) and not np.size(of):
         return judged(name, (), limit, unit)
-    size = float(np.max(np.abs(of), initial=0.0))
     return judged(name, residual, limit * size, unit, size, limit <= AGREED)
 
 
@@ -357,10 +360,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     ``what`` names the quantity ``over`` which the positions run; ``reaches`` are the limits between which
     the group closes. The reason names the first position that does not.
     """
-    if len(reaches) != 2:
-        refuse(SheetError(f"assembled {name!r}: reaches must be the two limits of {what}, got {len(reaches)}"))
     measured(unit, f"check {name}")
-    lost = np.isnan(point)
+    lost = _lost(f"check {name}", point, reaches, what)
     count = np.count_nonzero(lost) if lost.size else np.nan
     return _state(
         Check(name, float(count), 0, "open positions", _open(lost, over, reaches, what, unit), essential=True)
@@ -372,11 +373,21 @@ def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: s
 
     Of many variants those that do not close stay NaN, and the others go on.
     """
-    measured(unit)
-    lost = np.isnan(point)
+    measured(unit, "require")
+    lost = _lost("require", point, reaches, what)
     if np.ndim(lost) < 2 and lost.all():
         refuse(SheetError(_unreached(lost, over, reaches, what, unit)))
     _tell(lost, over, reaches, what, unit)
+
+
+def _lost(of: str, point: ArrayLike, reaches: tuple[Any, Any], what: str) -> Any:
+    """Where a point does not exist; refused in the name of what asks, as limits are that are no two."""
+    if not isinstance(reaches, tuple | list | np.ndarray) or len(reaches) != 2:
+        refuse(SheetError(f"{of}: reaches must be the two limits of {what}, not {as_given(reaches)}"))
+    try:
+        return np.isnan(point)
+    except (TypeError, ValueError):  # of numpy's: they do not say of what
+        refuse(SheetError(f"{of}: its points must be numbers, not {as_given(point)}"))
 
 
 def _tell(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
