@@ -362,6 +362,8 @@ def test_rows_and_units_of_input_tables_are_read_as_they_are_typed(
         ({("stringers.y", -1): "y"}, "stringers of the section stringers must have the columns A, y, y_top; it has"),
         ({("stringers.y", -1): "stringers.A"}, "cell E6: stringers.A stands in D6 already"),
         ({("F", 5): "=SUM(C8:C10)"}, "12: =SUM(C8:C10) stands below an empty row: take it out, or fill the rows of F"),
+        ({("F", 3): "=SUM(B$7:B9)"}, "cell B10: =SUM(B$7:B9) is of the rows above: take it out, or give its number"),
+        ({("stringers.y", 3): "=AVERAGE(E8:E9)/2"}, "cell E10: =AVERAGE(E8:E9)/2 is"),
         ({("F", 2): "=2*5"}, "cell B9: F (2): the formula =2*5 has no value; open and save the file"),
         ({("F", -1): "forces", ("F", 1): 12}, "sheet Input tables has no column F: give it its name back, or delete"),
     ],

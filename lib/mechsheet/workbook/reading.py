@@ -1,6 +1,7 @@
 """An exported workbook read back: the sheet of its inputs, edited in Excel or LibreOffice, is a scene."""
 
 import math
+import re
 import warnings
 from collections.abc import Collection, Container, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -26,6 +27,7 @@ _HEADS = ("Symbol", "Value", "Unit")
 _COLUMNS = {_SHEET: 100, _TABLES: 400}  # among which the headings are looked for: a sheet may have 16384
 _WHOLE = ("xl/workbook.xml", "xl/sharedStrings.xml", "xl/styles.xml")  # parts of the file that are read as a whole
 _LARGEST = 10_000_000  # bytes of each, unpacked
+_RANGE = r"(?<![!\w$])\$?([A-Z]+)\$?(\d+):\$?([A-Z]+)\$?(\d+)"  # of cells of the same sheet
 _EMPTY = 10_000  # empty rows, one after the other, that are passed over: a sheet may have a million
 
 _Row = tuple[int, tuple[Any, ...]]  # number of a row and the values of its cells
@@ -133,15 +135,19 @@ def _of_tables(path: Path, rows: Iterator[_Row], tables: Sequence[Rows]) -> dict
             if all(row[at[name]] is None and (number, at[name]) not in formulas for name in names):
                 below |= {name for name in names if name == field.name and elements[name]}
                 continue
-            formula = formulas.get((number, at[names[0]]), "")
-            if field.name in below and "(" in formula:  # such as the sum of the list
-                cell, remedy = _Cell(path, _TABLES, number, at[names[0]]), f"fill the rows of {field.name} above"
-                raise SheetError(f"{cell}: {cut(formula)} stands below an empty row: take it out, or {remedy}")
-            below.discard(field.name)
-            for name in names:
+            cells = {name: _Cell(path, _TABLES, number, at[name]) for name in names}
+            for cell in cells.values():
+                formula = formulas.get((number, cell.column), "")
+                if field.name in below and "(" in formula:  # such as the sum of the list
+                    remedy = f"fill the rows of {field.name} above"
+                    raise SheetError(f"{cell}: {cut(formula)} stands below an empty row: take it out, or {remedy}")
+                if cell.is_of_those_above(formula):
+                    raise SheetError(f"{cell}: {cut(formula)} is of the rows above: take it out, or give its number")
+            for name, cell in cells.items():
                 column = replace(known[name], name=f"{name} ({len(elements[name]) + 1})")
-                cell, unit = _Cell(path, _TABLES, number, at[name]), _Cell(path, _TABLES, top + 1, at[name])
-                elements[name].append(_read(column, row[at[name]], _text(units[at[name]]), cell, unit))
+                unit = _Cell(path, _TABLES, top + 1, cell.column)
+                elements[name].append(_read(column, row[cell.column], _text(units[cell.column]), cell, unit))
+            below.discard(field.name)
     found = dict[str, object]()
     for field in tables:
         lists = {column.name: elements[column.name] for column in field.columns if column.name in elements}
@@ -202,6 +208,12 @@ class _Cell:
 
     def __str__(self) -> str:
         return _at(self.path, self.coordinate, self.sheet)
+
+    def is_of_those_above(self, formula: str) -> bool:
+        """Whether a formula of it takes several cells of its column above it, as a total does."""
+        column = get_column_letter(self.column + 1)
+        ranges = re.findall(_RANGE, formula)
+        return any(a == b == column and first != last and int(last) < self.row for a, first, b, last in ranges)
 
     def formula(self) -> str:
         """The formula that it holds."""
