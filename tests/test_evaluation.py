@@ -186,6 +186,24 @@ def test_a_plain_root_is_the_one_that_roots_gives(shape: str) -> None:
     assert told > 10 or shape in ("touching", "jump", "pole"), "it answers what is plain"
 
 
+def test_a_root_that_rounding_leaves_level_is_left_to_roots() -> None:
+    """Millions of floats solve it, each as well as the others: the two would choose another one."""
+    random, told = Random(2), 0
+    for _ in range(60):
+        steep, lo, hi, x = 10 ** random.uniform(2, 9), 0.0, 1.0, random.uniform(0, 1)
+        f = lambda x, steep=steep: np.arctan(steep * (x - 0.4)) + x * 1e-9  # noqa: E731
+        equals = float(f(np.float64(x)))
+        columns = {name: np.array([x]) for name, x in {"lo": lo, "hi": hi, "equals": equals}.items()}
+        slow = roots.nearest_root(roots.Counted([f], (1,)), columns)
+        try:
+            x = plain_root(f, lambda x, f=f: float(f(np.float64(x))), lo, hi, None, equals)
+        except NotPlain:
+            continue
+        told += 1
+        assert abs(x - slow[2][0]) <= 1e-12, (steep, equals)
+    assert told > 3
+
+
 def test_a_function_is_recorded_once_for_the_same_quantities_and_what_it_sees_is_noted_each_time() -> None:
     graph, calls = Graph(bodies=True), list[float]()
     x, y = (Quantity(graph, graph.leaf("input", name, 2.0)) for name in "xy")

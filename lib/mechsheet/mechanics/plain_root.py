@@ -2,7 +2,7 @@
 
 It looks at the function where `roots` does and by the same measures, at the 97 samples at once and at single places
 after that. Whatever `roots` would look into more closely, it leaves to that: a sample that is no number, a turn or an
-end near the target, a sign change that may be a jump, no root.
+end near the target, a sign change that may be a jump or is level or rounded, no root.
 """
 
 from collections.abc import Callable
@@ -91,15 +91,18 @@ def _root(
     """The root between two places at which g has unlike signs; NotPlain where it may be a jump."""
     a, b, r_a, r_b = _bracketed(g, *piece, floor)
     root, off = (b, abs(r_b)) if abs(r_b) < abs(r_a) else (a, abs(r_a))
-    unit, scale = ulp(max(abs(equals), off)), EPS * abs(root) + floor
+    unit, scale, rises = ulp(max(abs(equals), off)), EPS * abs(root) + floor, piece[3] > 0
     sides = [(b, r_b, min(1.0, (ends[1] - b) / (_FAR * scale))), (a, r_a, -min(1.0, (a - ends[0]) / (_FAR * scale)))]
-    if off and not any(off <= 4 * abs(g(end + part * _FAR * scale)) + 4 * unit for end, _, part in sides):
+    far = [(g(end + part * _FAR * scale), part) for end, _, part in sides if part]
+    steps = [(end, r, np.sign(part) * min(_NEAR, abs(part) * _FAR) * scale) for end, r, part in sides if part]
+    near = [(g(end + d), r, d) for end, r, d in steps]
+    if any(not value or (value > 0) != ((side > 0) == rises) for value, *_, side in (*far, *near)):
+        raise NotPlain  # about a root that is level or rounded there are many more
+    if off and not any(off <= 4 * abs(value) + 4 * unit for value, _ in far):
         raise NotPlain
     rise = abs(r_b - r_a)
-    if off and rise > 4 * unit:
-        off_by = [(end, r, np.sign(part) * min(_NEAR, abs(part) * _FAR) * scale) for end, r, part in sides if part]
-        if not any(rise <= _EXPLAINED * (b - a) * abs((g(end + d) - r) / d) for end, r, d in off_by):
-            raise NotPlain
+    if off and rise > 4 * unit and not any(rise <= _EXPLAINED * (b - a) * abs((value - r) / d) for value, r, d in near):
+        raise NotPlain
     return root
 
 
