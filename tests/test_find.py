@@ -372,9 +372,32 @@ def test_numpy_does_not_warn_when_the_search_leaves_the_reach():
     find(lambda x: np.log(x - 0.5) + np.sqrt(0.9 - x) + 1 / (x - 0.6), 0.0, 1.0)  # warnings are errors here
 
 
-def test_complex_values_are_refused():
-    with pytest.raises(TypeError, match="real numbers, not complex128"):
-        find(lambda x: x + 0j, 0.0, 1.0)
+@pytest.mark.parametrize(
+    ("gives", "told"),
+    [
+        (lambda x: 2.0 + 0j * x, "the function to solve must return real numbers, not (2+0j)"),
+        (lambda x: None, "the function to solve must return real numbers, not None"),  # nothing behind `return`
+        (lambda x: x > 0.5, "the function to solve must return real numbers, not True"),
+        (lambda x: (x, x), "what is to be solved gives numbers of shape (2, 2) for unknowns of shape (2,)"),
+    ],
+)
+def test_what_is_no_number_of_an_unknown_is_told_by_what_it_is(gives, told):
+    """Not by numpy's words: an object, an axis remapping."""
+    with pytest.raises((TypeError, ValueError), match=re.escape(told)):
+        find(gives, 0.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("gives", "told"),
+    [
+        (lambda x, y: None, "each equation must be a number, left side less right side, not None"),
+        (lambda x, y: (x, "y"), "each equation must be a number, left side less right side, not 'y'"),
+        (lambda x, y: ((x, y), y), "what is to be solved gives numbers of shape (2, 2) for unknowns of shape (2,)"),
+    ],
+)
+def test_what_is_no_equation_is_told_by_what_it_is(gives, told):
+    with pytest.raises((TypeError, ValueError), match=re.escape(told)):
+        find(gives, x=1.0, y=1.0)
 
 
 # --- arrays of problems ------------------------------------------------------------------------------------------
@@ -743,13 +766,21 @@ def test_what_is_masked_is_not_solved():
 
 
 @pytest.mark.parametrize(
-    ("given", "shown"), [(1j, "1j"), (np.array([2 + 1j]), "[2.+1.j]"), ("a", "'a'"), ("1", "'1'"), (None, "None")]
+    ("given", "shown"),
+    [
+        (1j, "1j"),
+        (np.array([2 + 1j]), "[2.+1.j]"),
+        ("a", "'a'"),
+        ("1", "'1'"),
+        (None, "None"),
+        (1 << 1024, str(1 << 1024)[:59]),
+    ],
 )
 def test_what_is_no_real_number_is_named(given, shown):
     words = re.escape(shown)
-    with pytest.raises(SheetError, match=f"^equals = {words} for rod must be real numbers$"):  # its real part, before
+    with pytest.raises(SheetError, match=f"^equals = {words}.* for rod must be real numbers$"):  # its real part, before
         find(lambda x: x**2, 0.0, 10.0, equals=given, unknown="rod")
-    with pytest.raises(SheetError, match=f"^x = {words} must be real numbers$"):
+    with pytest.raises(SheetError, match=f"^x = {words}.* must be real numbers$"):
         find(lambda x, y: (x + y - 1, x - y), x=given, y=1.0)
 
 

@@ -7,7 +7,7 @@ parameter as a single number, and a field in an array: a Find leaves NaN where i
 """
 
 import inspect
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import is_dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -112,8 +112,8 @@ def reals(value: ArrayLike, name: str) -> Float:
     return _of_any_size(value, name, _REAL, "iuf", "d")
 
 
-def _of_any_size(value: ArrayLike, name: str, single: Container[type], kinds: str, kind: str) -> NDArray[Any]:
-    if type(value) in single:
+def _of_any_size(value: ArrayLike, name: str, single: frozenset[type], kinds: str, kind: str) -> NDArray[Any]:
+    if _plain(value, single):
         return np.asarray(value, kind)
     if type(value) is np.ndarray and value.dtype.char == kind:
         return value
@@ -176,9 +176,13 @@ def _numbers(value: ArrayLike, name: str, kinds: str) -> NDArray[Any]:
     except ValueError:  # rows of different length
         raise ValueError(f"{name} must be an array with rows of equal length") from None
     if x.dtype.kind not in kinds:
-        first = next(iter(x.ravel().tolist()), None)
-        raise ValueError(f"{name} = {first!r} must be {'numbers' if 'c' in kinds else 'real numbers'}")
+        raise ValueError(f"{name} = {first_of(x)} must be {'numbers' if 'c' in kinds else 'real numbers'}")
     return x
+
+
+def first_of(x: NDArray[Any]) -> str:
+    """The first element of an array, as Python writes it: what is there in the place of a number."""
+    return repr(next(iter(x.ravel().tolist()), None))
 
 
 def _parts(name: str, value: Any) -> Iterator[tuple[str, Any]]:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.mechanics.arguments import unmasked
+from mechsheet.mechanics.arguments import first_of, unmasked
 from mechsheet.mechanics.brackets import (
     EPS,
     Array,
@@ -54,7 +54,7 @@ def real_values(f: Function, x: Array) -> Array:
     with np.errstate(all="ignore"):
         y = unmasked(f(x))
     if y.dtype.kind not in "fiu":
-        raise TypeError(f"the function to solve must return real numbers, not {y.dtype}")
+        raise TypeError(f"the function to solve must return real numbers, not {first_of(y)}")
     infinite = np.isinf(y)
     return np.where(infinite, np.nan, y) if infinite.any() else y
 

@@ -35,9 +35,17 @@ def one_by_one(f: Parts, shape: tuple[int, ...]) -> Parts:
     def called(x: Array) -> list[NDArray[Any]]:
         single = x.reshape(len(x), -1, *shape)
         found = zip(*(f(single[:, i]) for i in range(single.shape[1])), strict=True)
-        return [np.stack([np.broadcast_to(v, shape) for v in values]).reshape(x.shape[1:]) for values in found]
+        return [np.stack([_of_shape(v, shape) for v in values]).reshape(x.shape[1:]) for values in found]
 
     return called
+
+
+def _of_shape(found: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+    try:
+        return np.broadcast_to(found, shape)
+    except ValueError:  # of numpy's, which does not say of what
+        of = f"unknowns of shape {shape}" if shape else "one number"
+        raise ValueError(f"what is to be solved gives numbers of shape {found.shape} for {of}") from None
 
 
 def of_one(f: Callable[[Array], Any]) -> Parts:

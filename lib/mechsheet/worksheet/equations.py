@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mechsheet import units
-from mechsheet.mechanics.arguments import shape_error, unmasked
+from mechsheet.mechanics.arguments import first_of, shape_error, unmasked
 from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
@@ -144,7 +144,7 @@ def _parts(values: Any) -> list[NDArray[Any]]:
     parts = [unmasked(v) for v in several]
     for part in parts:
         if part.dtype.kind not in "fciu":
-            raise TypeError(f"each equation must be a number, left side less right side, not {part.dtype}")
+            raise TypeError(f"each equation must be a number, left side less right side, not {first_of(part)}")
     return parts
 
 
@@ -165,7 +165,7 @@ def real_numbers(value: ArrayLike | None, name: str, of: str = "") -> Array:
         if value is None or np.asarray(value).dtype.kind in "cSU":
             raise TypeError
         return unmasked(value, float)
-    except (TypeError, ValueError):  # of numpy's: they do not say of what
+    except (TypeError, ValueError, OverflowError):  # of numpy's: they do not say of what
         raise SheetError(f"{name} = {as_given(value)}{of and f' for {of}'} must be real numbers") from None
 
 
