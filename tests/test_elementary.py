@@ -114,6 +114,7 @@ ARGUMENTS: dict[Callable[..., Any], tuple[Any, ...]] = {
     rpp.rpp_condition: (points(), points()),
     rpp.rpp_reactions: (points(), points(), points(), points(), loads(), loads()),
     load.inertia: (points(), numbers(), numbers(), points(), numbers()),
+    load.lever: (numbers(), numbers()),
     rrr.rrr_reactions: (points(), points(), points(), loads(), loads()),
     rrp.rrp_reactions: (points(), points(), points(), loads(), loads()),
     rpr.rpr_reactions: (points(), points(), points(), loads(), loads()),
@@ -345,3 +346,90 @@ def test_a_ring_of_uneven_bolts_is_none_where_it_has_no_equilibrium() -> None:
         assert ring.state == str(own.state)
         seen.add(str(own.state))
     assert len(seen) > 3
+
+
+def turned() -> tuple[Any, Any]:
+    """Random directions, and origins of the same size as the links."""
+    return np.exp(1j * numbers(-3, 3)), points()
+
+
+def dead_centres() -> Iterator[tuple[Callable[..., Any], tuple[Any, ...]]]:
+    """Velocities, accelerations, reactions, conditions of groups in a dead centre, which rounding alone hides."""
+    u, A = turned()
+    r, t = numbers(), numbers()
+    v, on = points(), (loads(), loads())
+    flat, square = (A, A + u * (r + t), A + u * r), A + 1j * u * r
+    yield rrr.rrr_velocity, (*flat, v)
+    yield rrr.rrr_acceleration, (*flat, r, t, r, t, v)
+    yield rrr.rrr_reactions, (*flat, *on)
+    yield rrr.rrr_condition, flat
+    yield rrr.rrr_determinant, flat
+    yield rrp.rrp_velocity, (A, square, square, u, v)
+    yield rrp.rrp_acceleration, (A, square, square, u, r, t, r, t, v)
+    yield rrp.rrp_reactions, (A, square, u, *on)
+    yield rrp.rrp_condition, (A, square, square, u)
+    yield rrp.rrp_determinant, (A, square, u)
+    yield rpr.rpr_velocity, (A, square, u, v)
+    yield rpr.rpr_acceleration, (A, square, u, r, t, v)
+    yield rpr.rpr_reactions, (A, square, u, *on)
+    yield rpr.rpr_condition, (A, square, u)
+    yield rpr.rpr_determinant, (A, square, u)
+    guides = u * r, u * t
+    yield prp.prp, (A, A + v, *guides)
+    yield prp.prp_velocity, (A, A + v, A, *guides, v)
+    yield prp.prp_acceleration, (A, A + v, A, *guides, r, t, r, t, v)
+    yield prp.prp_reactions, (A, *guides, *on)
+    yield prp.prp_condition, guides
+    yield rpp.rpp, (A, A + v, *guides)
+    yield rpp.rpp_velocity, (A, A + v, A, *guides, v)
+    yield rpp.rpp_acceleration, (A, A + v, A, *guides, r, t, r, v)
+    yield rpp.rpp_reactions, (A, A + v, *guides, *on)
+    upright, level = A + 1j * r, 1 + 0j  # no part of a result is known either
+    yield rrp.rrp_velocity, (A, upright, upright, level, v)
+    yield rrp.rrp_reactions, (A, upright, level, *on)
+    yield rpr.rpr_reactions, (A, upright, level, *on)
+    yield prp.prp_velocity, (A, A + v, A, level, 2 * level, v)
+    yield prp.prp_reactions, (A, level, 2 * level, *on)
+    yield rpp.rpp_velocity, (A, A + v, A, level, 2 * level, v)
+    yield rpp.rpp_reactions, (A, A + v, level, 2 * level, *on)
+    idle = [Load(0j, A, r)]  # a couple alone needs no force
+    yield rrp.rrp_reactions, (A, A + r, level, [], idle)
+    yield drive.cylinder_drive, (A, A + r, 0j, [Load(0j, A + r, r)])
+
+
+@pytest.mark.parametrize(("function", "arguments"), list(dead_centres()), ids=lambda x: getattr(x, "__name__", ""))
+def test_at_a_dead_centre_the_steps_have_no_number_either(
+    function: Callable[..., Any], arguments: tuple[Any, ...]
+) -> None:
+    """Rounding made forces of 1e17 N of it in a page, and in a workbook where Excel does not take it for nothing."""
+    own = parts(function(*arguments))
+    with np.errstate(all="ignore"):
+        steps = parts(STEPS[function](*arguments))
+    assert any(not np.isfinite(value).any() for value in own.values())  # of the last two a distance alone
+    for name, value in own.items():
+        np.testing.assert_array_equal(np.isfinite(steps[name]), np.isfinite(value), err_msg=name)
+        assert (np.isinf(steps[name]) == np.isinf(value)).all(), name
+
+
+def test_the_steps_close_a_dyad_of_links_in_one_line() -> None:
+    """Its transmission angle is pi and not 2e-8 less, and it has a place where a rounding parts the links."""
+    for L, r_A, r_B in ((0.5, 0.3, 0.2), (1.3 - 0.1, 0.7, 0.5), (0.25, 0.75, 0.5), (0.75, 0.5, 1.25)):
+        C = rrr.rrr(0j, L + 0j, r_A, r_B, 1)
+        steps = STEPS[rrr.rrr](0j, np.complex128(L), np.float64(r_A), np.float64(r_B), 1)
+        assert abs(steps - C) < 1e-15 and steps.imag == 0
+        assert STEPS[rrr.rrr_transmission_angle](0j, L + 0j, steps) in (0, np.pi)
+
+
+def test_the_steps_keep_the_digits_of_long_links_whose_outer_pins_are_near_each_other() -> None:
+    u, _ = turned()
+    A, B = 1e-6 * points(), 1e-6 * points()
+    C, on = 1e3 * u, (loads(), loads())
+    for function, arguments in (
+        (rrr.rrr_velocity, (A, B, C, points(), points())),
+        (rrr.rrr_reactions, (A, B, C, *on)),
+        (rrr.rrr_determinant, (A, B, C)),
+        (rrr.rrr_transmission_angle, (A, B, C)),
+    ):
+        own, steps = parts(function(*arguments)), parts(STEPS[function](*arguments))
+        for name, value in own.items():
+            np.testing.assert_allclose(steps[name], value, rtol=1e-12, err_msg=f"{function.__name__} {name}")

@@ -1,9 +1,10 @@
 """The library's functions in elementary steps, as the cells of a workbook compute them.
 
 Each function of the files beside this one does what the function of the same name in the mechanics does, with
-arithmetic, square roots and the functions of angles alone. The library's own keep more digits near dead centres, check
-their arguments and serve the worksheets; these serve as the formulas that a workbook shows. Intermediate quantities
-carry the name, unit and meaning under which the workbook lists them.
+arithmetic, square roots and the functions of angles alone. The library's own check their arguments, keep the last
+digits of links that a rounding parts from one line, and serve the worksheets; these serve as the formulas that a
+workbook shows. What rounding alone makes of a dead centre is no number in either. Intermediate quantities carry the
+name, unit and meaning under which the workbook lists them.
 """
 
 from collections.abc import Callable

@@ -6,7 +6,7 @@ import numpy as np
 
 from mechsheet.mechanics.drive import CouplingDrive, CylinderDrive, GearDrive
 from mechsheet.mechanics.load import Load
-from mechsheet.quantities.elementary_group import loaded_end
+from mechsheet.quantities.elementary_group import lever, loaded_end
 from mechsheet.quantities.elementary_planar import Quantity, cross, dot, step, unit
 
 
@@ -27,4 +27,4 @@ def cylinder_drive(A: Quantity, C: Quantity, R_C: Quantity, loads: Sequence[Load
     F, T = loaded_end(loads, C, "")
     F, u = F + R_C, unit(C - A)
     N = -cross(u, F)
-    return CylinderDrive(-dot(u, F), 1j * N * u, -T, -T / N)
+    return CylinderDrive(-dot(u, F), 1j * N * u, -T, lever(-T, N))

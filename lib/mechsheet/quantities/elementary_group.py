@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.load import Load
 from mechsheet.quantities.elementary_planar import Quantity, cross, step
 
@@ -23,8 +24,18 @@ def carried(a: Quantity, omega: Quantity, dr: Quantity, ddr: Quantity) -> Quanti
     return rigid if _none(dr) and _none(ddr) else rigid + a * ((ddr + 2j * omega * dr) / np.abs(a))
 
 
+def determinant(D: Quantity, size: Quantity, unit: str) -> Quantity:
+    """Determinant of a group; none at a dead centre, where it is no more than rounding of what it is made of."""
+    return step("D", unit, "determinant of the group", np.where(np.abs(D) > ROUNDINGS * size, D, np.nan))
+
+
+def of_guides(u_A: Quantity, u_B: Quantity) -> Quantity:
+    """Determinant of two unit vectors."""
+    return determinant(cross(u_A, u_B), 2.0, "-")
+
+
 def along(a: Quantity, b: Quantity, w: Quantity) -> tuple[Quantity, Quantity]:
-    D = step("D", "-", "determinant of the group", cross(a, b))
+    D = of_guides(a, b)
     return cross(w, b) / D, cross(a, w) / D
 
 
@@ -35,6 +46,10 @@ def loaded_end(loads: Sequence[Any], pole: Quantity, end: str) -> tuple[Quantity
     moments = [cross(arm, load.F) + load.M for arm, load in zip(arms, loads, strict=True)]
     force = step(f"F{end}", "N", "sum of the loads", reduce(lambda p, q: p + q, forces))
     return force, step(f"T{end}", "N*m", "moment of the loads about the pin", reduce(lambda p, q: p + q, moments))
+
+
+def lever(M: Quantity, N: Quantity) -> Quantity:
+    return M / np.where(N == 0, np.nan, N)
 
 
 def inertia(S: Quantity, m: Quantity, J: Quantity, a_S: Quantity = 0, epsilon: Quantity = 0) -> Load:

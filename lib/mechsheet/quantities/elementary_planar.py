@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.mechanics.group import ROUNDINGS
+
 Quantity = Any  # a number, an array, or a quantity that records what is done with it
 
 
@@ -24,6 +26,11 @@ def _is_nothing(x: Quantity) -> bool:
     return not np.any(x) if node is None else node.op == "constant" and not node.value.any()
 
 
+def settled(x: Quantity, size: Quantity) -> Quantity:
+    """A difference of what is as large as ``size``; zero where that is no more than its rounding."""
+    return np.where(np.abs(x) <= ROUNDINGS * size, 0.0, x)
+
+
 def cross(a: Quantity, b: Quantity) -> Quantity:
     return a.real * b.imag - a.imag * b.real
 
@@ -41,7 +48,8 @@ def angle_between(a: Quantity, b: Quantity) -> Quantity:
 
 
 def angle_opposite(a: Quantity, b: Quantity, c: Quantity) -> Quantity:
-    over, under = (a - b + c) * (a + b - c), (a + b + c) * (b + c - a)
+    size = a * (b + c)
+    over, under = settled((a - b + c) * (a + b - c), size), settled((a + b + c) * (b + c - a), size)
     return 2 * np.arctan2(np.sqrt(over), np.sqrt(under))
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from mechsheet.mechanics.group import Reach
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.prp import PRPAcceleration, PRPReactions, PRPVelocity
-from mechsheet.quantities.elementary_group import along, loaded_end
-from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, unit, whole
+from mechsheet.quantities.elementary_group import along, lever, loaded_end, of_guides
+from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, settled, unit, whole
 
 
 def prp(A: Quantity, B: Quantity, u_A: Quantity, u_B: Quantity) -> Quantity:
@@ -35,7 +35,7 @@ def prp_velocity(
     u_A, u_B = unit(u_A), unit(u_B)
     guide_A, guide_B = v_A + 1j * omega_A * (C - A), v_B + 1j * omega_B * (C - B)
     ds_A, ds_B = along(u_A, -u_B, guide_B - guide_A)
-    return PRPVelocity(guide_A + ds_A * u_A, ds_A, ds_B)
+    return PRPVelocity(whole(guide_A + ds_A * u_A, u_A, ds_A), ds_A, ds_B)
 
 
 def prp_acceleration(
@@ -57,11 +57,11 @@ def prp_acceleration(
     guide_A = a_A + (1j * epsilon_A - omega_A**2) * (C - A) + 2j * omega_A * ds_A * u_A
     guide_B = a_B + (1j * epsilon_B - omega_B**2) * (C - B) + 2j * omega_B * ds_B * u_B
     dds_A, dds_B = along(u_A, -u_B, guide_B - guide_A)
-    return PRPAcceleration(guide_A + dds_A * u_A, dds_A, dds_B)
+    return PRPAcceleration(whole(guide_A + dds_A * u_A, u_A, dds_A), dds_A, dds_B)
 
 
 def prp_determinant(u_A: Quantity, u_B: Quantity) -> Quantity:
-    return cross(unit(u_A), unit(u_B))
+    return of_guides(unit(u_A), unit(u_B))
 
 
 def prp_transmission_angle(u_A: Quantity, u_B: Quantity) -> Quantity:
@@ -69,7 +69,7 @@ def prp_transmission_angle(u_A: Quantity, u_B: Quantity) -> Quantity:
 
 
 def prp_condition(u_A: Quantity, u_B: Quantity) -> Quantity:
-    return 1 / np.abs(prp_determinant(u_A, u_B))
+    return 1 / np.abs(settled(cross(unit(u_A), unit(u_B)), 2.0))
 
 
 def prp_reactions(
@@ -78,5 +78,5 @@ def prp_reactions(
     u_A, u_B = unit(u_A), unit(u_B)
     (F_A, T_A), (F_B, T_B) = loaded_end(loads_A, C, "A"), loaded_end(loads_B, C, "B")
     N_A, N_B = along(u_A, u_B, 1j * (F_A + F_B))
-    R_A = 1j * N_A * u_A
-    return PRPReactions(R_A, 1j * N_B * u_B, -(R_A + F_A), -T_A, -T_B, -T_A / N_A, -T_B / N_B)
+    R_A, R_B = whole(1j * N_A * u_A, u_A, N_A), whole(1j * N_B * u_B, u_B, N_B)
+    return PRPReactions(R_A, R_B, -(R_A + F_A), -T_A, -T_B, lever(-T_A, N_A), lever(-T_B, N_B))

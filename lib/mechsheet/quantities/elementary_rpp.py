@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rpp import RPPAcceleration, RPPReactions, RPPVelocity
-from mechsheet.quantities.elementary_group import along, loaded_end
-from mechsheet.quantities.elementary_planar import Quantity, cross, unit
+from mechsheet.quantities.elementary_group import along, lever, loaded_end
+from mechsheet.quantities.elementary_planar import Quantity, cross, unit, whole
 from mechsheet.quantities.elementary_prp import prp, prp_condition, prp_determinant, prp_reach, prp_transmission_angle
 
 rpp, rpp_reach, rpp_determinant = prp, prp_reach, prp_determinant  # the same lines, seen from another body
@@ -24,7 +24,7 @@ def rpp_velocity(
 ) -> RPPVelocity:
     u_A, u_B = unit(u_A), unit(u_B)
     ds_A, ds_B = along(u_A, u_B, v_A - v_B - 1j * omega_B * (A - B))
-    return RPPVelocity(v_B + 1j * omega_B * (C - B) + ds_B * u_B, ds_A, ds_B)
+    return RPPVelocity(whole(v_B + 1j * omega_B * (C - B) + ds_B * u_B, u_B, ds_B), ds_A, ds_B)
 
 
 def rpp_acceleration(
@@ -44,7 +44,8 @@ def rpp_acceleration(
     turning, coriolis_B = 1j * epsilon_B - omega_B**2, 2j * omega_B * ds_B * u_B
     known = a_B + turning * (A - B) + 2j * omega_B * ds_A * u_A + coriolis_B
     dds_A, dds_B = along(u_A, u_B, a_A - known)
-    return RPPAcceleration(a_B + turning * (C - B) + coriolis_B + dds_B * u_B, dds_A, dds_B)
+    a_C = whole(a_B + turning * (C - B) + coriolis_B + dds_B * u_B, u_B, dds_B)
+    return RPPAcceleration(a_C, dds_A, dds_B)
 
 
 def rpp_reactions(
@@ -53,6 +54,6 @@ def rpp_reactions(
     u_A, u_B = unit(u_A), unit(u_B)
     (F_A, T_A), (F_B, T_B) = loaded_end(loads_A, A, "A"), loaded_end(loads_B, C, "B")
     N, N_B = along(u_A, u_B, 1j * F_B)
-    R_C = -1j * N * u_A
+    R_B, R_C = whole(1j * N_B * u_B, u_B, N_B), whole(-1j * N * u_A, u_A, N)
     M_B = -(T_A + cross(A - C, -R_C) + T_B)
-    return RPPReactions(-(R_C + F_A), 1j * N_B * u_B, R_C, M_B, -T_A, M_B / N_B, T_A / N)
+    return RPPReactions(-(R_C + F_A), R_B, R_C, M_B, -T_A, lever(M_B, N_B), lever(T_A, N))

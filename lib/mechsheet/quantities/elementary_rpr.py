@@ -7,13 +7,14 @@ import numpy as np
 from mechsheet.mechanics.group import Reach
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rpr import RPRAcceleration, RPRPosition, RPRReactions, RPRVelocity
-from mechsheet.quantities.elementary_group import loaded_end
-from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, step, unit
+from mechsheet.quantities.elementary_group import determinant, lever, loaded_end
+from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, settled, step, unit, whole
 
 
 def rpr(A: Quantity, B: Quantity, branch: Quantity, offset: Quantity = 0) -> RPRPosition:
     d = A - B
-    s = step("s", "m", "distance along the slide", branch * np.sqrt(dot(d, d) - offset**2))
+    L = np.abs(d)
+    s = step("s", "m", "distance along the slide", branch * np.sqrt((L - offset) * (L + offset)))
     return RPRPosition(d / (s + 1j * offset), s)
 
 
@@ -22,13 +23,12 @@ def rpr_reach(A: Quantity, B: Quantity) -> Reach:
     return Reach(-L, L)
 
 
-def _swinging(d: Quantity, u: Quantity, w: Quantity) -> tuple[Quantity, Quantity]:
-    p = cross(u, w) / dot(u, d)
-    return p, dot(u, w) + p * cross(u, d)
+def _swinging(d: Quantity, u: Quantity, w: Quantity, D: Quantity) -> tuple[Quantity, Quantity]:
+    return cross(u, w) / D, dot(w, d) / D
 
 
 def rpr_velocity(A: Quantity, B: Quantity, u: Quantity, v_A: Quantity = 0, v_B: Quantity = 0) -> RPRVelocity:
-    return RPRVelocity(*_swinging(A - B, unit(u), v_A - v_B))
+    return RPRVelocity(*_swinging(A - B, unit(u), v_A - v_B, rpr_determinant(A, B, u)))
 
 
 def rpr_acceleration(
@@ -36,11 +36,11 @@ def rpr_acceleration(
 ) -> RPRAcceleration:
     d, u = A - B, unit(u)
     known = 2j * omega_A * ds * u - omega_A**2 * d
-    return RPRAcceleration(*_swinging(d, u, a_A - a_B - known))
+    return RPRAcceleration(*_swinging(d, u, a_A - a_B - known, rpr_determinant(A, B, u)))
 
 
 def rpr_determinant(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
-    return dot(A - B, unit(u))
+    return determinant(dot(A - B, unit(u)), np.abs(A) + np.abs(B), "m")
 
 
 def rpr_transmission_angle(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
@@ -48,8 +48,8 @@ def rpr_transmission_angle(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
 
 
 def rpr_condition(A: Quantity, B: Quantity, u: Quantity) -> Quantity:
-    d = A - B
-    return (np.abs(A) + np.abs(B) + np.abs(d)) / np.abs(dot(d, unit(u)))
+    d, size = A - B, np.abs(A) + np.abs(B)
+    return (size + np.abs(d)) / np.abs(settled(dot(d, unit(u)), size))
 
 
 def rpr_reactions(
@@ -57,6 +57,6 @@ def rpr_reactions(
 ) -> RPRReactions:
     u = unit(u)
     (F_A, T_A), (F_B, T_B) = loaded_end(loads_A, A, "A"), loaded_end(loads_B, B, "B")
-    N = step("N", "N", "force of the slide, to the left of it", (T_A + T_B) / dot(A - B, u))
-    R_C = 1j * N * u
-    return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, -T_A / N)
+    N = step("N", "N", "force of the slide, to the left of it", (T_A + T_B) / rpr_determinant(A, B, u))
+    R_C = whole(1j * N * u, u, N)
+    return RPRReactions(-(R_C + F_A), R_C - F_B, R_C, -T_A, lever(-T_A, N))

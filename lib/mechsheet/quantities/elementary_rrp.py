@@ -7,8 +7,8 @@ import numpy as np
 from mechsheet.mechanics.group import Reach
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rrp import RRPAcceleration, RRPReactions, RRPVelocity
-from mechsheet.quantities.elementary_group import carried, loaded_end, moved
-from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, step, unit, whole
+from mechsheet.quantities.elementary_group import carried, determinant, lever, loaded_end, moved
+from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, settled, step, unit, whole
 
 
 def rrp(A: Quantity, B: Quantity, u: Quantity, r_A: Quantity, branch: Quantity, offset: Quantity = 0) -> Quantity:
@@ -22,8 +22,7 @@ def rrp_reach(A: Quantity, B: Quantity, u: Quantity, offset: Quantity = 0) -> Re
     return Reach(np.abs(cross(unit(u), A - B) - offset), np.asarray(np.inf))
 
 
-def _sliding(a: Quantity, u: Quantity, w: Quantity) -> tuple[Quantity, Quantity]:
-    D = step("D", "m", "determinant of the group", dot(a, u))
+def _sliding(a: Quantity, u: Quantity, w: Quantity, D: Quantity) -> tuple[Quantity, Quantity]:
     return cross(u, w) / D, -dot(w, a) / D
 
 
@@ -39,8 +38,8 @@ def rrp_velocity(
 ) -> RRPVelocity:
     a, u = C - A, unit(u)
     guide = v_B + 1j * omega_B * (C - B)
-    omega_A, ds = _sliding(a, u, guide - moved(v_A, a, dr_A))
-    return RRPVelocity(guide + ds * u, omega_A, ds)
+    omega_A, ds = _sliding(a, u, guide - moved(v_A, a, dr_A), rrp_determinant(A, C, u))
+    return RRPVelocity(whole(guide + ds * u, u, ds), omega_A, ds)
 
 
 def rrp_acceleration(
@@ -59,12 +58,13 @@ def rrp_acceleration(
 ) -> RRPAcceleration:
     a, u = C - A, unit(u)
     guide = a_B + (1j * epsilon_B - omega_B**2) * (C - B) + 2j * omega_B * ds * u
-    epsilon_A, dds = _sliding(a, u, guide - a_A - carried(a, omega_A, dr_A, ddr_A))
-    return RRPAcceleration(guide + dds * u, epsilon_A, dds)
+    w = guide - a_A - carried(a, omega_A, dr_A, ddr_A)
+    epsilon_A, dds = _sliding(a, u, w, rrp_determinant(A, C, u))
+    return RRPAcceleration(whole(guide + dds * u, u, dds), epsilon_A, dds)
 
 
 def rrp_determinant(A: Quantity, C: Quantity, u: Quantity) -> Quantity:
-    return dot(C - A, unit(u))
+    return determinant(dot(C - A, unit(u)), np.abs(A) + np.abs(C), "m")
 
 
 def rrp_transmission_angle(A: Quantity, C: Quantity, u: Quantity) -> Quantity:
@@ -72,8 +72,8 @@ def rrp_transmission_angle(A: Quantity, C: Quantity, u: Quantity) -> Quantity:
 
 
 def rrp_condition(A: Quantity, B: Quantity, C: Quantity, u: Quantity) -> Quantity:
-    a = C - A
-    return (np.abs(A) + np.abs(B) + np.abs(C - B) + np.abs(a)) / np.abs(dot(a, unit(u)))
+    a, A_, C_ = C - A, np.abs(A), np.abs(C)
+    return (A_ + np.abs(B) + np.abs(C - B) + np.abs(a)) / np.abs(settled(dot(a, unit(u)), A_ + C_))
 
 
 def rrp_reactions(
@@ -81,7 +81,7 @@ def rrp_reactions(
 ) -> RRPReactions:
     u, a = unit(u), C - A
     (F_A, T_A), (F_B, T_B) = loaded_end(loads_A, A, "A"), loaded_end(loads_B, C, "B")
-    N = step("N", "N", "force of the guide, to the left of it", -(T_A + cross(a, F_B)) / dot(a, u))
-    R_B = 1j * N * u
+    N = step("N", "N", "force of the guide, to the left of it", -(T_A + cross(a, F_B)) / rrp_determinant(A, C, u))
+    R_B = whole(1j * N * u, u, N)
     R_C = R_B + F_B
-    return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, -T_B / N)
+    return RRPReactions(-(R_C + F_A), R_B, R_C, -T_B, lever(-T_B, N))
