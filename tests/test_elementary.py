@@ -433,3 +433,22 @@ def test_the_steps_keep_the_digits_of_long_links_whose_outer_pins_are_near_each_
         own, steps = parts(function(*arguments)), parts(STEPS[function](*arguments))
         for name, value in own.items():
             np.testing.assert_allclose(steps[name], value, rtol=1e-12, err_msg=f"{function.__name__} {name}")
+
+
+def test_the_steps_bend_no_section_that_lies_on_one_level() -> None:
+    """Rounding of its centroid made stresses of 1e17 Pa of it."""
+    one, alone = np.full((COUNT, 5), 0.1) * numbers()[:, None], rng.uniform(0.1, 1, (COUNT, 5))
+    areas = alone * (np.arange(5) == 2)
+    for y, A in ((one, alone), (alone, areas), (0 * one, alone)):
+        own, steps = joint.bending(y, A, 1.0, 100.0), STEPS[joint.bending](y, A, np.float64(1.0), np.float64(100.0))
+        assert np.isnan(own.sigma).all() and np.isnan(steps.sigma).all() and np.isnan(steps.y_0).all()
+
+
+def test_the_steps_pull_a_symmetrical_section_evenly() -> None:
+    """Its neutral axis was 1e15 m away, and not at infinity, where rounding left a moment."""
+    y = np.array([0.1, 0.2, 0.3, -0.1, -0.2, -0.3])
+    for N in (100.0, -3.0):
+        own = joint.bending(y, 1.0, 0.0, N)
+        with np.errstate(divide="ignore"):
+            steps = STEPS[joint.bending](y, np.ones(6), np.float64(0), np.float64(N))
+        assert steps.y_0 == own.y_0 and np.isinf(steps.y_0) and steps.M_c == 0

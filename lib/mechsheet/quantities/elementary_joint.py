@@ -6,8 +6,9 @@ from typing import Any, cast
 import numpy as np
 
 from mechsheet.mechanics import joint
+from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.joint import Bending, Ring, Section
-from mechsheet.quantities.elementary_planar import Quantity, step
+from mechsheet.quantities.elementary_planar import Quantity, settled, step
 from mechsheet.quantities.quantity import plain
 
 
@@ -54,10 +55,13 @@ def sum_of_elements(x: Quantity) -> Quantity:
 
 def bending(y: Quantity, A: Quantity, M: Quantity, N: Quantity) -> Bending:
     F = step("F", "m**2", "area", A.sum(axis=-1))
-    S = step("S", "m**3", "first moment of area", (A * y).sum(axis=-1))
+    first = settled((A * y).sum(axis=-1), (A * np.abs(y)).sum(axis=-1))
+    S = step("S", "m**3", "first moment of area", first)
     y_c = S / F
     lever = y - y_c[..., None]
-    I_c = step("I", "m**4", "second moment of area about the centroid", (A * lever**2).sum(axis=-1))
+    second = (A * lever**2).sum(axis=-1)
+    second = np.where(second > ROUNDINGS**2 * (A * y**2).sum(axis=-1), second, np.nan)  # none of a single level
+    I_c = step("I", "m**4", "second moment of area about the centroid", second)
     M_c = M - N * y_c
     sigma = (N / F)[..., None] + (M_c / I_c)[..., None] * lever
     return Bending(sigma, F, S, y_c, I_c, M_c, y_c - N * I_c / (F * M_c))
@@ -83,10 +87,10 @@ def neutral_axis(y: Quantity, A_t: Quantity, A_c: Quantity, M: Quantity, N: Quan
         area = step("A", "m**2", "area that acts", np.where(stretched, A_t, A_c))
         result = bending(y, area, M, N)
         before, stretched = stretched, step("t", "-", "stretched", np.where(loaded, result.sigma > 0, upper))
-    settled = ((stretched & before) | ~(stretched | before)).all(axis=-1, keepdims=True)
-    area = np.where(settled, area, np.nan)
+    steady = ((stretched & before) | ~(stretched | before)).all(axis=-1, keepdims=True)
+    area = np.where(steady, area, np.nan)
     result = bending(y, area, M, N)
-    state = States(known.state, [settled, (result.sigma > 0).any(axis=-1), (result.sigma < 0).any(axis=-1)])
+    state = States(known.state, [steady, (result.sigma > 0).any(axis=-1), (result.sigma < 0).any(axis=-1)])
     return Section(result.sigma, result.sigma * area, area, result.y_0, cast("joint.Text", state))
 
 
