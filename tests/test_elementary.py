@@ -452,3 +452,10 @@ def test_the_steps_pull_a_symmetrical_section_evenly() -> None:
         with np.errstate(divide="ignore"):
             steps = STEPS[joint.bending](y, np.ones(6), np.float64(0), np.float64(N))
         assert steps.y_0 == own.y_0 and np.isinf(steps.y_0) and steps.M_c == 0
+
+
+@pytest.mark.parametrize("size", [2.0**-480, 2.0**480])
+def test_the_steps_close_a_dyad_of_any_size(size: float) -> None:
+    A, B, r_A, r_B = pins()
+    C = STEPS[rrr.rrr](A, B, r_A, r_B, 1)
+    np.testing.assert_array_equal(STEPS[rrr.rrr](size * A, size * B, size * r_A, size * r_B, 1), size * C)

@@ -13,11 +13,12 @@ from mechsheet.quantities.elementary_planar import Quantity, cross, dot, settled
 
 def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity) -> Quantity:
     d = step("d", "m", "from the first outer pin to the second", B - A)
-    LL = step("LL", "m**2", "squared distance of the outer pins", dot(d, d))
-    L, along = np.sqrt(LL), LL + (r_A - r_B) * (r_A + r_B)
-    excess = settled((r_A + r_B - L) * (L + r_A - r_B) * (L - r_A + r_B), L * r_A * r_B)
-    q = step("q", "-", "inner pin along the line of the outer pins, part of it", along / (2 * LL))
-    h = step("h", "-", "inner pin across that line, part of it", branch * np.sqrt((L + r_A + r_B) * excess) / (2 * LL))
+    L = step("L", "m", "distance of the outer pins", np.abs(d))
+    excess = ((r_A + r_B - L) / L) * ((L + r_A - r_B) / L) * ((L - r_A + r_B) / L)  # over L: of lengths of any size
+    square = ((L + r_A + r_B) / L) * settled(excess, (r_A / L) * (r_B / L))
+    along = (1 + ((r_A - r_B) / L) * ((r_A + r_B) / L)) / 2
+    q = step("q", "-", "inner pin along the line of the outer pins, part of it", along)
+    h = step("h", "-", "inner pin across that line, part of it", branch * np.sqrt(square) / 2)
     return whole(A + (q + 1j * h) * d, d, h)
 
 
