@@ -115,3 +115,13 @@ def test_a_page_chooses_the_texts_of_other_inputs(sheet: Path, tmp_path: Path, p
         assert [[row[1:] for row in rows] for rows in tables[:2]] == [[row[1:] for row in rows] for rows in own[:2]]
         assert {row[1] for row in tables[2]} == {""}
         assert "not known: Table 3" in page.locator(".ms-state").inner_text()
+
+
+def test_a_formula_of_texts_among_the_inputs_has_no_number_to_put_in(tmp_path: Path) -> None:
+    """There was no page of such a line: a text of an array has no .item()."""
+    setup = SETUP + "\n\n@inputs\nclass Pipe:\n    name: str  # line\n    d: float  # [mm] bore\n"
+    line = 'v = np.array([{"suction": 1.5}.get(n, 4.0) for n in g.pipes.name]) * 1.0  # [m/s] allowed\ntypeset()'
+    path = tmp_path / "pipes.py"
+    path.write_text(written(setup, 'pipes: list[Pipe] = [Pipe("suction", 0.04), Pipe("return", 0.025)]  # lines', line))
+    sheet = load(path)
+    assert "allowed" in write.page(sheet, sheet.inputs())

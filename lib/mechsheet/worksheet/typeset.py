@@ -135,11 +135,11 @@ class Numbers:
         else:
             line = self.known.get(name)
             unit = line.unit if line and line.has_value else None
-        if isinstance(value, bool | np.bool_):  # a condition is no number
-            return None
         if unit is None or not isinstance(value, int | float | complex | np.ndarray | np.generic) or not np.size(value):
             return None
         field = np.asarray(value)
+        if field.dtype.kind not in "iufc":  # texts and conditions are no numbers
+            return None
         inside = field.shape and field.shape[-1] > position
         return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
 
