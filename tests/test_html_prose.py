@@ -155,3 +155,22 @@ def test_why_a_check_is_not_evaluated_is_that_of_the_worksheet(
     assert sheet.run(["judged"], {"g": changed})["judged"].reason == told
     shown = opened(blank, to, given).locator(".ms-check").last
     assert shown.locator(".ms-badge").inner_text() == "not evaluated" and told in shown.inner_text()
+
+
+SIZED = """top = np.divide(9.0, g.F)  # [-] top
+near = check("near", g.x, 0.04, "-", of=g.y)
+least = check("least", top, at_least=2.0, unit="-")
+typeset(near, least)"""
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_checks_of_a_limit_that_tells_nothing_and_of_what_is_infinite(blank: "Page", tmp_path: Path) -> None:
+    """For other inputs a limit that is there was said not to exist, and what is infinite was inf, in a line \N{INFINITY}."""
+    path, to = tmp_path / "sized.py", tmp_path / "sized.html"
+    given = "F: float = 0.5  # [-] F\nx: float = 1.0  # [-] x\ny: float = 2.0  # [-] y"
+    path.write_text(written(SETUP.replace("import ask", "import ask, check, typeset"), given, SIZED))
+    sheet = cells.load(path)
+    to.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    near, least = opened(blank, to, "F=0&x=1.5").locator(".ms-check").all()
+    assert "its limit is more than a thousandth of what is compared" in near.inner_text()
+    assert "\N{INFINITY} \u2265 2" in least.inner_text()

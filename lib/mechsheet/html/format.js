@@ -252,6 +252,6 @@ function inLine(values) {
 
 // What a check compares: as in lines and told apart, with two digits where the residual is only rounding.
 function compared(residual, limit, agrees) {
-  if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4));
+  if (!Number.isFinite(residual) || !Number.isFinite(limit)) return [residual, limit].map(x => significant(x, 4).replace("inf", "∞"));
   return agrees || Math.abs(residual) < 1e-3 * limit ? apart([residual, limit], 2) : inLine([residual, limit]);
 }

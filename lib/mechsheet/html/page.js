@@ -146,7 +146,7 @@ function judged(spec, results) {
   const open = reason => ({kind: "OPEN", word: "not evaluated", compared: "", reason});
   if (!all.length) return open("there is nothing to check");
   if (lost) return open(all.length > 1 ? `${lost} of ${all.length} values do not exist` : "its value does not exist");
-  if (limit !== limit) return open("its limit does not exist");
+  if (limit !== limit) return open(`its limit ${spec.agreement ? "is more than a thousandth of what is compared, or " : ""}does not exist`);
   if (!isFinite(limit)) return open("its limit is infinite");
   const passed = spec.least ? residual >= limit : residual <= limit, kind = passed ? "PASS" : "FAIL", agrees = spec.agreement && passed;
   const [a, b] = compared(residual, limit, agrees).map(inWords);
