@@ -5,10 +5,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Self, TypeVar
 
+import numpy as np
+
+from mechsheet import units
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.lines import Recording, Residual
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.text_column import Texts
+from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.table import Figure, Table
 
@@ -27,15 +32,17 @@ def rows_of(namespace: Mapping[str, Any]) -> frozenset[int]:
     return frozenset(len(table.columns[0].values) for table in _shown(namespace, Table))
 
 
-def lacking(recording: Recording, namespace: Mapping[str, Any]) -> tuple[bool, int]:
-    """Whether a recording has other rows than the tables and figures of the run, and how many gaps.
+def lacking(run: "OfPositions", namespace: Mapping[str, Any]) -> tuple[bool, bool, int]:
+    """Whether a run has other rows than the worksheet's tables and figures, other words, and how many gaps.
 
     It has where some fields are of other positions than those that tables list, or given and not made by `linspace`.
     """
+    recording = run.recording
     own = {table.number: len(table.columns[0].values) for table in _shown(namespace, Table)}
     own |= {f"Fig {figure.number}": len(figure.x.values[:: recording.every]) for figure in _shown(namespace, Figure)}
     columns = ((own.get(number), c) for number, of in recording.tables.items() for c in of if c is not None)
-    return any(count not in (None, column.extent[-1]) for count, column in columns), len(recording.gaps)
+    others = any(count not in (None, column.extent[-1]) for count, column in columns)
+    return others, run.says_otherwise(namespace), len(recording.gaps)
 
 
 def _shown(namespace: Mapping[str, Any], kind: type[T]) -> Iterator[T]:
@@ -46,9 +53,10 @@ def _shown(namespace: Mapping[str, Any], kind: type[T]) -> Iterator[T]:
 class OfPositions(ABC):
     """A run of a worksheet's cells over the positions that its tables list.
 
-    ``lines`` declare a unit, ``names`` are what it knows of them.
+    ``lines`` declare a unit, ``names`` are what it knows of them, and the ``namespace`` is the worksheet's own.
     """
 
+    namespace: Mapping[str, Any]
     names: dict[str, Any]
     lines: Mapping[str, Formula]
 
@@ -80,6 +88,7 @@ class OfPositions(ABC):
             run = self.everywhere()
             if name in run.names:
                 self.names[name] = value = _listed(self.graph, run.names[name])
+                value = value.at if isinstance(value, Texts) else value
                 if isinstance(value, Quantity):
                     self.guard_as(run, value.parts)
                     if not value.single:
@@ -97,10 +106,12 @@ class OfPositions(ABC):
         """Let checks look at all positions while that is not too much; the others look at those listed."""
         recording, left = self.recording, _MORE
         columns = (part for table in recording.tables.values() for c in table if c is not None for part in c.parts)
-        judged = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
-        known = set(bottom_up([*columns, *judged, *recording.guards], ()))
+        compared = (part for check in recording.checks.values() for part in (*check.parts, check.limit))
+        known = set(bottom_up([*columns, *compared, *recording.guards], ()))
+        judged = {check.name: check for check in _shown(self.namespace, Check)}
         for name, own in recording.checks.items():
-            if not any(any(rests) for rests in self.on_rows([*own.parts, own.limit])):
+            of_rows = any(any(rests) for rests in self.on_rows([*own.parts, own.limit]))
+            if not of_rows and (name not in judged or _compares_alike(own, judged[name])):
                 continue
             whole = self.everywhere().recording.checks.get(name, own)
             nodes = [*whole.parts, whole.limit]
@@ -130,6 +141,26 @@ class OfPositions(ABC):
             return False
         return any(over for _, over in self.on_rows(list(value.parts)))
 
+    def says_otherwise(self, namespace: Mapping[str, Any]) -> bool:
+        """Whether words or marks rest on a sum or an extreme over the positions that tables list, or are not its own.
+
+        These are the worksheet's, where all positions make them.
+        """
+        recording, own = self.recording, dict(_words(namespace))
+        now: dict[str, tuple[str | float, list[Node]]] = {}
+        for key, text in recording.said.items():
+            now[key] = text.now, [*text.nodes]
+        for (number, n), (texts, at) in recording.labels.items():
+            if not isinstance(texts, str):
+                now[f"table {number} {n}"] = "\n".join(texts[int(k)] for k in at.value.flat), [at.re]
+        for number, marks in recording.marks.items():
+            now |= {f"figure {number} at {label}": (float(node.value), [node]) for label, node in marks.items()}
+        if self.graph.thin == 1 or not now:
+            return False
+        if any(over for _, over in self.on_rows([node for _, nodes in now.values() for node in nodes])):
+            return True
+        return not all(_alike(said, own.get(key)) for key, (said, _) in now.items())
+
     def of_listed(self, name: str) -> bool:
         """Whether a number is a greatest or least one over the positions that tables list, and differs only by that.
 
@@ -143,8 +174,39 @@ class OfPositions(ABC):
         return kinds <= {"max", "min"} and any(n.op == "rows" for n in under)
 
 
+def _words(namespace: Mapping[str, Any]) -> Iterator[tuple[str, str | float]]:
+    """The words and marks that inputs may change in what a worksheet shows, by what a recording calls them."""
+    for table in _shown(namespace, Table):
+        yield from ((f"table {table.number} title", table.title), (f"table {table.number} note", table.note))
+        for n, column in enumerate(table.columns):
+            if column.values.dtype.kind in "OU":
+                yield f"table {table.number} {n}", "\n".join(map(str, column.values))
+    for figure in _shown(namespace, Figure):
+        yield f"figure {figure.number} title", figure.title
+        for label, at in figure.marks:
+            yield f"figure {figure.number} at {label}", at * units.parse(figure.x.unit).factor
+    yield from ((f"check {check.name} name", check.name) for check in _shown(namespace, Check))
+
+
+def _alike(said: str | float, own: str | float | None) -> bool:
+    """Whether a text is the same, and a mark at the same place but for rounding."""
+    if isinstance(said, str) or not isinstance(own, float):
+        return said == own
+    return bool(np.isclose(said, own, rtol=1e-7, atol=0.0, equal_nan=True))
+
+
+def _compares_alike(recorded: Residual, own: Check) -> bool:
+    """Whether a check compares what the worksheet's own does, but for rounding: a number of positions may be another."""
+    end, factor = min if recorded.at_least else max, units.parse(recorded.unit).factor
+    values = [x for part in recorded.parts for x in part.value.flat]
+    off = np.array([end(values, default=0.0), recorded.limit.value]) - np.array([own.residual, own.limit]) * factor
+    return not own.evaluated or bool((abs(off) <= 1e-7 * max(abs(own.residual), abs(own.limit)) * factor).all())
+
+
 def _listed(graph: Graph, value: Any) -> Any:
     """What was recorded over all positions, at those that tables list."""
-    if not isinstance(value, Quantity):
-        return value
-    return value[tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in value.extent)]
+    if isinstance(value, list | tuple) and len(value) == graph.positions:
+        return value[:: graph.thin]
+    extent = value.extent if isinstance(value, Quantity) else value.at.extent if isinstance(value, Texts) else ()
+    key = tuple(slice(None, None, graph.thin if size == graph.positions else None) for size in extent)
+    return value[key] if key else value

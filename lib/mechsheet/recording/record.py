@@ -90,8 +90,8 @@ def _run(
             current.set(graph)
             lines = registry(namespace) if known is None else known
             runs.append(Run(sheet, graph, namespace, asked, lines, unnamed=not (want or bodies)))
-            if not any(lacking(runs[0].recording, namespace)):  # else all positions may tell more
+            if not any(lacking(runs[0], namespace)):  # else all positions may tell more
                 break
-        return min(runs, key=lambda run: lacking(run.recording, namespace))
+        return min(runs, key=lambda run: lacking(run, namespace))
     finally:
         current.reset(token)

@@ -102,7 +102,7 @@ class Stage:
         follows = self.graph.draws and isinstance(every, Quantity) and max(map(np.ndim, columns), default=0) == 1
         labels = {n: column for n, column in enumerate(columns) if isinstance(column, Texts)}
         given = [*(c.same if isinstance(c, Texts) else c for c in columns), *(label.at for label in labels.values())]
-        rows = [lift(self.graph, column) for column in body(listed)(given, 1 if follows else seen(every))]
+        rows = [lift(self.graph, column) for column in body(listed)(given, 1 if follows else int(seen(every)))]
         if follows:
             at = arange(self.graph, 0, rows[0].count(0), every)
             rows = [column[at] for column in rows]
@@ -331,8 +331,17 @@ class Stage:
         return any(number not in self.recording.tables for number in numbers)
 
     def same(self, value: Any, own: Any) -> bool:
-        """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of."""
+        """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of.
+
+        Of a column of texts, whether these are the same.
+        """
+        if isinstance(value, Texts) and isinstance(own, np.ndarray | list):
+            kept = solving.listed(self.graph, own)
+            return kept.tolist() == [value.texts[int(k)] for k in value.at.value.flat]
         numbers = int | float | complex | np.ndarray | np.generic
+        if self.graph.thin > 1 and isinstance(own, list | tuple) and isinstance(value, list | tuple) and value:
+            if own and all(isinstance(x, numbers) and np.ndim(x) == 0 for x in own):  # else they are the same elements
+                value, own = np.stack(value), np.asarray(own)
         if not isinstance(own, numbers):
             return True
         kept = np.asarray(own)

@@ -43,7 +43,9 @@ class Charts:
         def place(column: Column) -> Place:
             return Place("", name, looks.FIRST, next(n for n, c in enumerate(columns) if same_column(column, c)))
 
-        self.drawn.append(Listed(figure.lines, f"figure {figure.number}", place, grey))
+        thinned = self._formulas is not None and self._formulas.recording.every > 1
+        source = f"figure {figure.number}" + (", at the listed positions" if thinned else "")
+        self.drawn.append(Listed(figure.lines, source, place, grey))
         chart = self._chart(figure, place)
         chart.set_size({"width": spot.width, "height": spot.height})
         inside = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}
