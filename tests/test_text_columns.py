@@ -125,3 +125,18 @@ def test_a_formula_of_texts_among_the_inputs_has_no_number_to_put_in(tmp_path: P
     path.write_text(written(setup, 'pipes: list[Pipe] = [Pipe("suction", 0.04), Pipe("return", 0.025)]  # lines', line))
     sheet = load(path)
     assert "allowed" in write.page(sheet, sheet.inputs())
+
+
+def test_a_figure_of_its_own_data_is_called_by_other_inputs_on_all_sheets(tmp_path: Path, recalculated: Any) -> None:
+    """Only the chart was: the sheet of its data and that of its marks kept the number of the exported inputs."""
+    path = tmp_path / "figure.py"
+    lines = "x = linspace(1, 2.5, 5) * g.M  # [N*m] moment\ny = x**2  # [N**2*m**2] its square\n"
+    lines += 'figure_1 = figure("1", f"Up to {x.max():.0f} N m", x, y, marks={"M": g.M})'
+    path.write_text(
+        written(SETUP.replace("export,", "export, figure,"), "M: float = 4000.0  # [N*m] M", lines, "Figure")
+    )
+    book = computed(path, tmp_path, {})
+    live = recalculated(edit(book, {"M": 2000.0}, tmp_path / "edited.xlsx"))
+    assert live["Fig 1 data"]["A1"].value == "Data of figure 1 - Up to 5000 N m"
+    told = [cell.value for (cell, *_) in live["Marks"].iter_rows(min_row=3)]
+    assert {*told} == {"Figure 1 - Up to 5000 N m"}

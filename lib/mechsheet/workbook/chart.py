@@ -49,7 +49,9 @@ class Charts:
         chart = self._chart(figure, place)
         chart.set_size({"width": spot.width, "height": spot.height})
         inside = {"x_offset": spot.right, "y_offset": spot.down, "object_position": 2}
-        sheet.insert_chart(spot.row, spot.column, chart, {**inside, "description": caption("Figure", figure)})
+        said = self._caption(figure)
+        told = f"Figure {figure.number}" if isinstance(said, Live) else caption("Figure", figure)  # as it stays
+        sheet.insert_chart(spot.row, spot.column, chart, {**inside, "description": told})
 
     def marks(self) -> None:
         """The sheet Marks, where a figure marks anything."""
@@ -85,12 +87,15 @@ class Charts:
 
     def _title(self, figure: Figure) -> str:
         """A text, or a reference to one on the sheet Marks that inputs change."""
-        own = caption("Figure", figure)
-        said = self._formulas and self._formulas.words(f"figure {figure.number} title", own, f"Figure {figure.number}")
+        said = self._caption(figure)
         if not isinstance(said, Live):
-            return _label(own)
+            return _label(caption("Figure", figure))
         self._marked.append((said, "title", "", "", "", ""))
         return f"=Marks!$A${len(self._marked) + 2}"
+
+    def _caption(self, figure: Figure) -> Content:
+        own, number = caption("Figure", figure), f"Figure {figure.number}"
+        return self._formulas.words(f"figure {figure.number} title", own, number) if self._formulas else own
 
     def _mark(
         self, figure: Figure, label: str, at: float, ends: tuple[float, float], place: Callable[[Column], Place]
@@ -106,7 +111,7 @@ class Charts:
             ranges = ",".join(place(line).range(part.start, part.stop - 1) for line, part, _ in figure.series())
             known = [end(numbers).item() if numbers.size else np.nan for end in (np.min, np.max)]
             y = [Live(f"={AGGREGATE}({of},6,{ranges})", end) for of, end in zip((5, 4), known, strict=True)]
-        self._marked.append((caption("Figure", figure), label, x, x, *y))
+        self._marked.append((self._caption(figure), label, x, x, *y))
         return {
             "name": ["Marks", row, 1],
             "categories": ["Marks", row, 2, row, 3],

@@ -99,7 +99,9 @@ def workbook(
         columns = table_sheet.contents(table, formulas)
         grey = formulas.exported(table) if formulas else ()
         note = table_sheet.not_followed(table.columns, grey)
-        sheet, (spot,) = table_sheet.write(book, name, table.title, note, columns, 1, grey=grey)
+        of = f"Data of figure {figure.number}"
+        heading = formulas.words(f"figure {figure.number} title", table.title, of) if formulas else table.title
+        sheet, (spot,) = table_sheet.write(book, name, heading, note, columns, 1, grey=grey)
         charts.insert(sheet, spot, figure, name, table.columns, grey)
         done(next(put), all_parts)
     checks_sheet.write(book, checks, formulas, fixed, proved)
