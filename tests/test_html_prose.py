@@ -165,7 +165,7 @@ typeset(near, least)"""
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_checks_of_a_limit_that_tells_nothing_and_of_what_is_infinite(blank: "Page", tmp_path: Path) -> None:
-    """For other inputs a limit that is there was said not to exist, and what is infinite was inf, in a line \N{INFINITY}."""
+    """For other inputs a limit that is there was said not to exist, and what is infinite was inf."""
     path, to = tmp_path / "sized.py", tmp_path / "sized.html"
     given = "F: float = 0.5  # [-] F\nx: float = 1.0  # [-] x\ny: float = 2.0  # [-] y"
     path.write_text(written(SETUP.replace("import ask", "import ask, check, typeset"), given, SIZED))

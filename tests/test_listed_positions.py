@@ -97,7 +97,7 @@ OF_ALL = {  # what is shown of all positions, in a worksheet whose tables list s
 
 @pytest.mark.parametrize("case", OF_ALL)
 def test_what_is_shown_of_all_positions_is_so_in_a_workbook(case: str, tmp_path: Path) -> None:
-    """It was that of the listed ones, for the exported inputs too: a title said another greatest number than the page."""
+    """It was that of the listed ones, for the exported inputs too: a title said another greatest number."""
     sheet = _alone(tmp_path, "from mechsheet import check\n" + FIELD.replace("COUNT", "11") + OF_ALL[case])
     _, recording = recorded(sheet)
     assert not recording.gaps

@@ -63,6 +63,11 @@ class Texts:
         """Where a text is the exported one 0, else 1: what stands in a table for it."""
         return self.at if self.column is None else self.column[self.at]
 
+    @property
+    def now(self) -> list[str]:
+        """The texts with the present numbers, of which nothing is noted."""
+        return [self.texts[int(k)] for k in self.at.value.flat]
+
     def seen(self) -> NDArray[Any]:
         """The texts for Python to look at; a guard tells while they are the same."""
         rows = self.at.seen()

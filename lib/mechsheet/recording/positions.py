@@ -196,7 +196,7 @@ def _alike(said: str | float, own: str | float | None) -> bool:
 
 
 def _compares_alike(recorded: Residual, own: Check) -> bool:
-    """Whether a check compares what the worksheet's own does, but for rounding: a number of positions may be another."""
+    """Whether a check compares what the worksheet's own does, but for rounding."""
     end, factor = min if recorded.at_least else max, units.parse(recorded.unit).factor
     values = [x for part in recorded.parts for x in part.value.flat]
     off = np.array([end(values, default=0.0), recorded.limit.value]) - np.array([own.residual, own.limit]) * factor

@@ -331,17 +331,13 @@ class Stage:
         return any(number not in self.recording.tables for number in numbers)
 
     def same(self, value: Any, own: Any) -> bool:
-        """Whether a recorded value has the worksheet's own numbers, but for the rounding of what it is made of.
-
-        Of a column of texts, whether these are the same.
-        """
+        """Whether a recorded value has the worksheet's own numbers but for rounding of what it is made of, or texts."""
         if isinstance(value, Texts) and isinstance(own, np.ndarray | list):
-            kept = solving.listed(self.graph, own)
-            return kept.tolist() == [value.texts[int(k)] for k in value.at.value.flat]
+            return value.now == solving.listed(self.graph, own).tolist()
         numbers = int | float | complex | np.ndarray | np.generic
-        if self.graph.thin > 1 and isinstance(own, list | tuple) and isinstance(value, list | tuple) and value:
-            if own and all(isinstance(x, numbers) and np.ndim(x) == 0 for x in own):  # else they are the same elements
-                value, own = np.stack(value), np.asarray(own)
+        if self.graph.thin > 1 and isinstance(value, list | tuple) and isinstance(own, list | tuple) and value and own:
+            flat = all(isinstance(x, numbers) and not np.ndim(x) for x in own)
+            value, own = (np.stack(value), np.asarray(own)) if flat else (value, own)
         if not isinstance(own, numbers):
             return True
         kept = np.asarray(own)
