@@ -17,7 +17,7 @@ from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.inputs import declared
 from mechsheet.worksheet.kinds import Input
-from tests.own_worksheet import own
+from tests.own_worksheet import own, written
 
 ROOT = Path(__file__).parents[1]
 HITCH = ROOT / "worksheets" / "hitch.py"
@@ -354,3 +354,17 @@ def test_what_is_wanted_is_a_list_of_names(want, tmp_path):
     for study in (sensitivity, lambda path, want: tolerance(path, want, {"a": 0.1})):
         with pytest.raises(SheetError, match="must be a list of names, such as"):
             study(path, want)
+
+
+def test_a_list_is_given_as_to_a_run(tmp_path):
+    """Each of its rows was a variant: a list was refused, and of a table the first row alone was there."""
+    setup = "from mechsheet import ask, read, inputs\n@inputs\nclass Load:\n    F: float  # [N] force"
+    arm = "a: float = 2.0  # [m] arm; ± 0.1"
+    given = f"{arm}\nx: list[float] = [1.0, 2.0]  # [-] parts\nloads: list[Load] = [Load(1.0)]  # all"
+    path = tmp_path / "lists.py"
+    path.write_text(written(setup, given, "M = g.a * sum(g.x) * sum(g.loads.F)  # [N*m] moment"))
+    for x, loads in (([1.0, 2.0, 4.0], [{"F": 3.0}, {"F": 5.0}]), ([7.0], {"F": [3.0, 5.0]}), ("3; 4", "3 | 5")):
+        found = sensitivity(path, ["M"], x=x, loads=loads)
+        assert found.values["M"] == 2 * found.slopes["M"][0] == 2 * 7 * 8
+        band = tolerance(path, ["M"], x=x, loads=loads)["M"]
+        assert [band.least, band.nominal, band.greatest] == pytest.approx([1.9 * 56, 2 * 56, 2.1 * 56])

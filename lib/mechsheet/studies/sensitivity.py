@@ -26,6 +26,7 @@ from mechsheet.worksheet import numbers, symbol
 from mechsheet.worksheet.cells import asked, base, load, value
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.kinds import Input
+from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
 
@@ -237,7 +238,7 @@ def sensitivity(
     variants = {x: np.full(rows, at[x]) for x in chosen}
     for i, x in enumerate(chosen if why else ()):
         variants[x][1 + i * moves.shape[1] :][: moves.shape[1]] += moves[i]
-    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
+    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**shared(fields, given), **variants})
     solved(swept, 0)
 
     found, errors = dict[str, Array](), dict[str, Array]()
@@ -399,6 +400,11 @@ def point(worksheet: str | Path, given: Mapping[str, Any]) -> tuple[dict[str, In
     rows = declarations.Used(g).rows()
     numbers = {field.name: float(shown) for field, shown in rows if field.continuous}
     return {field.name: field for field, _ in rows}, numbers
+
+
+def shared(fields: Mapping[str, Input], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Inputs as all variants of a sweep have them: a list or a table is one, not one for each of its rows."""
+    return {name: declarations.each([x]) if isinstance(fields[name], Rows) else x for name, x in given.items()}
 
 
 def continuous(fields: Mapping[str, Input], name: str, cannot: str) -> None:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.studies.sensitivity import by_name, continuous, point, real, solved
+from mechsheet.studies.sensitivity import by_name, continuous, point, real, shared, solved
 from mechsheet.studies.sweep import known, sweep
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.cells import asked, base
@@ -158,7 +158,7 @@ def tolerance(
         raise SheetError(f"method {method!r} must be 'corners' or 'monte carlo'")
     moved = np.vstack([np.zeros(len(spread)), parts]) * spread
     variants = {x: at[x] + moved[:, i] for i, x in enumerate(tolerances)}
-    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**given, **variants})
+    swept = sweep(worksheet, dict.fromkeys(base(name) for name in names), {**shared(fields, given), **variants})
     solved(swept, 0)
     lost = swept.reasons[1:][swept.reasons[1:] != ""]
     bands = {}
