@@ -167,7 +167,7 @@ def interpolated(
     in_order(graph, xp)
     piece = _rank(graph, xp[1:-1], x)
     start, end, low, high = xp[piece], xp[piece + 1], fp[piece], fp[piece + 1]
-    inside = low + (x - start) / _of_any_unit(end - start) * _of_any_unit(high - low)
+    inside = low + (x - start) / of_any_unit(end - start) * of_any_unit(high - low)
     inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
     return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
@@ -185,12 +185,10 @@ def _unrolled(x: Quantity, xp: Quantity, fp: Quantity, period: Quantity) -> tupl
     )
 
 
-def _of_any_unit(difference: Quantity) -> Quantity:
-    """A difference of numbers in a table; if they are literals, they may have a unit that nobody wrote."""
-    graph = difference.graph
-    return difference.each(
-        lambda node: node if node.args or node.op != "constant" else graph.constant(node.value, UNKNOWN)
-    )
+def of_any_unit(value: Quantity) -> Quantity:
+    """A value such as a difference of numbers in a table; literals may have a unit that nobody wrote."""
+    graph = value.graph
+    return value.each(lambda node: node if node.args or node.op != "constant" else graph.constant(node.value, UNKNOWN))
 
 
 def in_order(graph: Graph, x: Quantity) -> None:

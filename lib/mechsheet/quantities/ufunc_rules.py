@@ -102,6 +102,11 @@ def finite(x: Quantity) -> Any:
     return both[0] if len(both) == 1 else both[0] & both[1]
 
 
+def _number(x: Quantity, value: float) -> Quantity:
+    """A number of the graph of ``x``, which takes no unit from it, as one that a line adds to it does."""
+    return Quantity(x.graph, x.graph.constant(value, "-"))
+
+
 def _copysign(x: Quantity, y: Quantity) -> Any:
     return choice(x.graph, y >= 0, absolute(x), -absolute(x))
 
@@ -146,9 +151,10 @@ _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
     np.log2: lambda x: _log(x) / math.log(2), np.log10: lambda x: _log(x) / math.log(10),
     np.cbrt: lambda x: elementwise("sign")(x) * absolute(x) ** (1 / 3),
     np.sinh: _sinh, np.cosh: _cosh, np.tanh: _tanh,
-    np.arctan: lambda x: elementwise("atan2")(x, lift(x.graph, 1.0)),
+    np.arctan: lambda x: elementwise("atan2")(x, _number(x, 1.0)),
     np.arcsinh: lambda x: elementwise("sign")(x) * _log1p(absolute(x) + x * x / (1 + _sqrt(x * x + 1))),
-    np.arccosh: lambda x: _log1p(x - 1 + _sqrt((x - 1) * (x + 1))), np.arctanh: lambda x: _log1p(2 * x / (1 - x)) / 2,
+    np.arccosh: lambda x: _log1p(x - 1 + _sqrt((x - 1) * (x + 1))),
+    np.arctanh: lambda x: _log1p(2 * x / (_number(x, 1.0) - x)) / 2,
     np.degrees: lambda x: x / (math.pi / 180), np.radians: lambda x: x * (math.pi / 180),
     np.rad2deg: lambda x: x / (math.pi / 180), np.deg2rad: lambda x: x * (math.pi / 180),
     np.ceil: lambda x: -elementwise("floor")(-x), np.trunc: trunc,

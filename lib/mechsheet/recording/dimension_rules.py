@@ -361,6 +361,8 @@ def _truth(reader: Reader, node: Node) -> Codes:
 
 
 def _atan2(reader: Reader, node: Node) -> Codes:
+    if only(reader.codes[node.args[1]], NUMBER):
+        return _number(reader, node)
     _alike(reader, node)
     return NUMBER
 

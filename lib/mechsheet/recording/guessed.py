@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
+from mechsheet.quantities.array_rules import of_any_unit
 from mechsheet.quantities.graph import Graph, Label, NotRecorded, current
 from mechsheet.quantities.node import Block
 from mechsheet.quantities.quantity import Quantity, lift, stack
@@ -72,7 +73,7 @@ class _Result:
 
 def _found(graph: Graph, name: str, note: Note, g: Callable[[Any], Any], guess: Quantity) -> Quantity:
     """The root near a guess as a vector."""
-    starts, count = [*guess.reshape(-1)], guess.re.size
+    starts, count = [of_any_unit(start) for start in guess.reshape(-1)], guess.re.size
     with solving.tried(graph) as of:
         own = _plainly(name, of(g), np.atleast_1d(guess.value))
     number = 1 + sum(label.symbol.startswith("near_") for label in graph.labels.values())
@@ -109,7 +110,8 @@ def _led(graph: Graph, block: Block, starts: Sequence[Quantity], found: Sequence
     left, slopes = _at(block, starts)
     first = _solved(graph, slopes, left)
     sizes = [np.maximum(abs(a), abs(s)) for a, s in zip(starts, first, strict=True)]
-    sizes = [choice(graph, size == 0, 1.0, size) for size in sizes]
+    unit = of_any_unit(lift(graph, 1.0))
+    sizes = [choice(graph, size == 0, unit, size) for size in sizes]
 
     def length(step: Sequence[Quantity]) -> Any:
         return stepped._greatest([abs(part) / size for part, size in zip(step, sizes, strict=True)])
