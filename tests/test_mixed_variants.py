@@ -51,6 +51,36 @@ def test_a_variant_has_its_own_number_whatever_others_have(lines: str, tmp_path:
         assert swept["result"] == pytest.approx(alone, rel=1e-12, abs=1e-12)
 
 
+PYTHONS = {  # whose numbers make of a line what arrays do not, as in a few variants alone
+    "try:\n    y = 1 / (g.F - 2.0)\nexcept ZeroDivisionError:\n    y = 100.0",
+    "try:\n    y = 1 / (g.F - 2.0)\nexcept Exception:\n    y = 100.0",
+    "try:\n    y = g.a / (g.F % (2.0 - g.F))\nexcept ZeroDivisionError:\n    y = 100.0",
+    "from contextlib import suppress\ny = 3.0\nwith suppress(OverflowError):\n    y = 10.0 ** (400.0 * (g.F > 2.9))",
+    "def f(u):\n    try:\n        return 1 / u\n    except ZeroDivisionError:\n        return 7.0\ny = f(g.F - 2.0)",
+    "y = (g.F > 1) + (g.F > 2) + (g.F > 2.9)",
+    "y = ((g.F > 2) + True) * g.a",
+}
+
+
+@pytest.mark.parametrize("lines", sorted(PYTHONS))
+def test_a_variant_has_what_python_makes_of_its_numbers(lines: str, tmp_path: Path) -> None:
+    """A division by zero that is handled was infinite, or handled for all of them; what holds was counted as one."""
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line")
+    F = np.array([*np.linspace(0.53, 2.8, 40), 2.0, *np.linspace(1.01, 3.0, 20)])
+    alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F.tolist()]
+    assert sweep(sheet.path, ["result"], {"F": F})["result"] == pytest.approx(alone, rel=1e-12)
+
+
+def test_a_variant_whose_number_is_too_great_for_python_has_none(tmp_path: Path) -> None:
+    """It was infinite, and its inverse 0; what is infinite in an array alone is so among others."""
+    sheet = own(tmp_path, "y = 1 / 10.0 ** (g.F * 200)\nresult = y * 1.0  # [-] line")
+    F = [*np.linspace(0.1, 1.0, 50), 3.0, 0.5]
+    swept = sweep(sheet.path, ["result"], {"F": F})
+    assert swept.at_once and np.flatnonzero(np.isnan(swept["result"])).tolist() == [50] and swept.reasons[50]
+    sheet = own(tmp_path, "y = (1 / 10.0 ** (x * 200)).sum(-1)\nresult = y * 1.0  # [-] line")
+    assert sweep(sheet.path, ["result"], {"F": F}).solved.all()
+
+
 def test_what_holds_of_one_number_says_nothing_of_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """After a sweep with one value that can be used, all variants of the next one had the greatest of them all."""
     monkeypatch.setattr("mechsheet.studies.sweep.mixes", lambda *_: False)  # as of what it cannot follow

@@ -45,7 +45,7 @@ class Job:
     The variants of a chunk are run at once, or one by one as single numbers. Then what recordings of a few of them know
     is computed by these: ``recorded`` has for each the values of the inputs that vary. Of one alone ``numbers`` are the
     results that are numbers, such as a mean over the positions, which among others has no axis of positions left. With
-    ``refusing`` no variant divides by zero alone: where some do among others, Python has an error for their numbers.
+    ``refusing`` no variant divides by zero alone, or is infinite: where some do among others, Python may have an error.
     """
 
     path: str
@@ -76,7 +76,8 @@ class Job:
 
     def _quietly(self, columns: Mapping[str, Any]) -> np.errstate:
         """What has no value is NaN here, and no reason for a warning."""
-        return np.errstate(all="ignore", divide="raise" if self.refusing and varied(columns) else "ignore")
+        alone = "raise" if self.refusing and varied(columns) else "ignore"
+        return np.errstate(all="ignore", divide=alone, over=alone)
 
     def _run_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> Part:
         sheet, count = self._sheet(), _count(columns)

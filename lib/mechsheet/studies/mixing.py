@@ -2,9 +2,11 @@
 
 That some variants have the same with each other as alone may not be so of others: whether any position of any of them
 is above a limit is true of all where it is true of one. So arrays of many variants are followed by the axis of these:
-what is made of one without it holds for none of them, and neither does what is made of that.
+what is made of one without it holds for none of them, and neither does what is made of that. Nor is what a line makes
+of Python's numbers always what it makes of arrays: it may handle an error that is of one alone, or count what holds.
 """
 
+import ast
 import builtins
 import statistics
 import sys
@@ -39,6 +41,10 @@ class _Looked(BaseException):
 
 def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> bool:
     """Whether a wanted result of so many variants is made of all of them at once."""
+    cells = sheet.needed(map(base, want), ["g"])
+    shared = [line for line in sheet.whole if isinstance(line, ast.FunctionDef | ast.ClassDef)]
+    if any(_handles(part) for line in (*shared, *(x for cell in cells for x in cell.lines)) for part in ast.walk(line)):
+        return True
     marked = {name: _several(x, sheet.path) for name, x in columns.items()}
     common = {name: _asking(held, sheet.path) for name, held in {**_PYTHONS, **sheet.common}.items()}
     imported = {"__import__": lambda *of: _asking(__import__(*of), sheet.path)}  # by a cell itself
@@ -55,6 +61,14 @@ def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> 
     mixed = any(_is_mixed(found.get(name)) for name in names)
     found.clear()  # its functions know it, so that its arrays would stay
     return mixed
+
+
+def _handles(part: ast.AST) -> bool:
+    """Whether lines go on after an error, which one variant has alone, as of a division by zero."""
+    match part:
+        case ast.Try(handlers=[_, *_]) | ast.TryStar() | ast.Name("suppress") | ast.Attribute(attr="suppress"):
+            return True
+    return False
 
 
 def _runs(sheet: Worksheet, names: Sequence[str], columns: Mapping[str, Any]) -> bool:
@@ -79,6 +93,8 @@ class Several(np.ndarray):
             self.mixed = True  # moved by a method of numpy's own
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *operands: Any, **how: Any) -> Any:
+        if ufunc is np.add and all(_is_truth(x) for x in operands):
+            self._looked()
         made = getattr(ufunc, method)(*_plain(operands), **_plain(how))
         return self._kept(made, operands, how)
 
@@ -221,6 +237,11 @@ def _plain(x: Any) -> Any:
     if type(x) is FunctionType:
         return getattr(x, "held", x)
     return {name: _plain(each) for name, each in x.items()} if type(x) is dict else x
+
+
+def _is_truth(x: Any) -> bool:
+    """Whether something holds, as a number: two of them are 2 to Python, and true to numpy."""
+    return isinstance(x, bool) or (isinstance(x, Several) and x.dtype == bool and _shape(x)[1:] == (1,))
 
 
 def _is_mixed(x: Any) -> bool:
