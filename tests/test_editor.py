@@ -130,7 +130,7 @@ def edit_in_place(editor):
     box.get_by_text("the name phii is not defined in any cell (did you mean phi?)").wait_for()
     area.press("Enter")
     box.get_by_text(
-        "it has no value, and without one its whole cell is not shown: Enter once more writes it"
+        "it has no value, and without one nor has what stands below it in its cell: Enter once more writes it"
     ).wait_for()
     area.fill("M_S = 2 * M(phi)  # [N*m] moment over the positions")
     box.get_by_text("840 N·m").wait_for()
@@ -382,6 +382,40 @@ def test_mistakes_are_told_at_their_place_and_the_rest_stays(editor):
     editor.expect("2 of 2 checks pass")
     expect(page.locator(".ms-told")).to_be_hidden()
     editor.expect_last_moment("420")
+
+
+def test_lines_of_a_cell_that_failed_stay_and_are_edited(editor):
+    """All of them went from the page with the one that failed, and those of every cell that needs it: none was left."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, area = file.read_bytes(), page.locator(".ms-box textarea")
+    page.locator("#line-M_S > span").last.click()
+    expect(area).to_have_value("M_S = M(phi)  # [N*m] moment over the positions")
+    area.fill("M_S = M(phii)  # [N*m] moment over the positions")
+    page.locator(".ms-box").get_by_text("phii is not defined").wait_for()
+    area.press("Enter")
+    page.locator(".ms-box").get_by_text("Enter once more").wait_for()
+    area.press("Enter")
+    expect(page.locator(".ms-waits #line-M_S")).to_be_visible()
+    expect(page.locator("#line-phi .ms-value")).to_contain_text("90°")
+    expect(page.locator(".ms-waits .ms-value")).to_have_count(0)
+    field = page.get_by_role("textbox", name="L, m, length of the lever> 0")
+    for text in ("0.4", "0.35"):
+        field.fill(text)
+        field.press("Enter")
+        drawn(page)
+        expect(page.locator("#line-phi")).to_have_count(1)
+    page.locator(".ms-waits [data-line=table_1]").click()
+    expect(area).to_have_value('table_1 = table("1", "Moment of the lever", phi, M_S)')
+    area.press("Escape")
+    page.locator("#line-M_S > span").last.click()
+    expect(area).to_have_value("M_S = M(phii)  # [N*m] moment over the positions")
+    area.press("Escape")
+    page.keyboard.press("Control+z")
+    expect(page.locator(".ms-written")).to_have_text("M_S is as it was")
+    editor.expect_last_moment("420")
+    editor.expect("2 of 2 checks pass")
+    expect(page.locator(".ms-waits")).to_have_count(0)
+    assert file.read_bytes() == before
 
 
 def test_a_mistake_at_the_top_names_its_section(editor):

@@ -413,7 +413,8 @@ def test_a_line_that_changes_its_name_does_so_everywhere_and_back(
     told = page.done("write", **asked)
     assert told["asks"].startswith("F goes, needed in") and told["renames"] == ["F", "F_0"]
     lost = {"name": "n", "was": line(TEMPLATE, "n"), "new": "n = g.F.parts  # [-] levers"}
-    assert page.done("write", **lost)["asks"] == "it has no value, and without one its whole cell is not shown"
+    asked_first = "it has no value, and without one nor has what stands below it in its cell"
+    assert page.done("write", **lost)["asks"] == asked_first
     assert path.read_text(encoding="utf-8") == TEMPLATE
     told = page.done("write", everywhere=True, **asked)
     made = path.read_text(encoding="utf-8")

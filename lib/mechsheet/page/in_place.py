@@ -120,7 +120,7 @@ class InPlace:
         if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
             return {"asks": need, "renames": _renames(was, new)}
         if do == "write" and not sure and self.breaks(text, told, name, was, new, below):
-            return {"asks": "it has no value, and without one its whole cell is not shown"}
+            return {"asks": "it has no value, and without one nor has what stands below it in its cell"}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
         save(made.encode(), self.path)

@@ -45,7 +45,7 @@ def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
 def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     meaning = meant(line.meaning, shown.numbers or ())
-    if not line.has_value:
+    if not line.has_value or value is None:
         text = once(line) if line.again else ""
         return _line(_equation(line, single), text, meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)

@@ -6,13 +6,14 @@ A version of marimo that keeps them otherwise makes `running` raise `Unlike`, an
 import ast
 import builtins
 import re
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping, Set
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
-from weakref import WeakSet
+from weakref import WeakKeyDictionary, WeakSet
 
 import marimo as mo
 
@@ -199,6 +200,45 @@ def compute_what_lost_a_name() -> None:
 
 
 _looked_after = WeakSet[Any]()  # kernels of pages
+
+
+def keep_unfinished(left: Callable[[Cell, object, Mapping[str, Any]], str]) -> Callable[[], None]:
+    """Let the calling page of the editor show HTML that is ``left`` of each cell that failed or waits for one that did.
+
+    It is told the cell, what it has raised and the namespace of the page, and stands below what marimo tells. Returned
+    is what shows it of cells that have run before; it does nothing where this version of marimo has no such place.
+    """
+    try:
+        from marimo._messaging.cell_output import CellChannel  # on use, as all of these: a version may lack it
+        from marimo._messaging.notification_utils import CellNotificationUtils  # on use
+        from marimo._runtime.context import get_context  # on use
+        from marimo._runtime.runner.hooks import Priority  # on use
+
+        kernel: Any = get_context()._kernel  # type: ignore[attr-defined]
+        hooks, graph, namespace = kernel._hooks, kernel.graph, kernel.globals
+    except (ImportError, AttributeError):
+        return lambda: None
+    if kernel in _keeping:
+        return _keeping[kernel]
+    there = set[Any]()  # cells below which it stands
+
+    def show(raised: Mapping[Any, object] = MappingProxyType({}), waiting: Set[Any] = frozenset()) -> None:
+        for cell_id, cell in list(graph.cells.items()):
+            if cell.run_result_status not in ("exception", "cancelled"):
+                there.discard(cell_id)
+            elif cell_id not in there or cell_id in raised or cell_id in waiting:
+                there.add(cell_id)
+                if html := left(_cell(cell), raised.get(cell_id, cell.exception), namespace):
+                    CellNotificationUtils.broadcast_console_output(CellChannel.MEDIA, "text/html", html, cell_id, None)
+
+    def ended(run: Any) -> None:
+        show(run.exceptions, {each for failed in run.cancelled_cells for each in run.cancelled_cells[failed]})
+
+    hooks.add_on_finish(ended, Priority.LATE)
+    return _keeping.setdefault(kernel, show)
+
+
+_keeping = WeakKeyDictionary[Any, Callable[[], None]]()  # by kernels of pages
 
 
 def run_what_is_written(server: Any) -> None:

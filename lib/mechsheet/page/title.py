@@ -17,7 +17,7 @@ def title_block(name: str, text: str = "") -> Title:
         import marimo as mo  # on use: a worksheet called as a function needs it not
 
         if mo.app_meta().mode == "edit" and mo.running_in_notebook():
-            from mechsheet.page import editor, in_place  # on use: only the editor needs them
+            from mechsheet.page import editor, in_place, notebook, unfinished  # on use: only the editor needs them
             from mechsheet.page.script import element, script  # on use: as above
 
             folded = mo.Html(script("folded.js") + element("ms-folded", **{"class": "ms-screen"}))
@@ -32,7 +32,9 @@ def title_block(name: str, text: str = "") -> Title:
             def tell(notes: Iterable[Note]) -> None:
                 told[:] = notes
                 redraw()
+                keep()
 
+            keep = notebook.keep_unfinished(unfinished.left)
             lines = in_place.InPlace(namespace, redraw)
             told[:] = editor.watch(tell)
             return edited()
