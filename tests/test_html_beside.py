@@ -187,14 +187,23 @@ def test_a_list_is_printed_as_a_table_of_what_is_in_its_fields(browser: Browser,
     path = tmp_path / "bolted_joint.html"
     path.write_text(written("examples/bolted_joint", {}), encoding="utf-8")
     page = opened(browser.new_page(), path)
-    page.locator("[data-grid=cases] input").first.fill("250")
+    page.locator("[data-grid=cases] input").first.fill("-250")
     page.emulate_media(media="print")
     printed = page.locator("[data-used=cases] + tr table")
     expect(printed).to_be_visible()
     head, *rows = (row.split() for row in printed.locator("tr").all_inner_texts())
     assert head == ["FA", "[lbf]", "FQ", "[lbf]"]
-    assert rows == [["1", "250", "300"], ["2", "1500", "600"], ["3", "2500", "400"], ["4", "3000", "0"]]
+    assert rows == [["1", "−250", "300"], ["2", "1500", "600"], ["3", "2500", "400"], ["4", "3000", "0"]]
     page.close()
+
+
+def test_on_paper_every_number_stands_with_its_minus(hitch: Page) -> None:
+    """It was a hyphen there, beside the minus of all results."""
+    field, printed = hitch.locator("#input-X01"), hitch.locator("[data-used=X01] td:nth-child(2)")
+    before = field.input_value()
+    for typed, text in {"-0,415": "−0,415", before: before}.items():
+        field.fill(typed)
+        expect(printed).to_have_text(text)
 
 
 def test_a_part_that_changes_is_painted_without_the_others(hitch: Page) -> None:

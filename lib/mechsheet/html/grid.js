@@ -15,7 +15,8 @@ function rowsIn(text, width) {
 
 // Its rows under their heads, as they are printed.
 const onPaper = field => `<table>${gridOf(field).tHead.outerHTML}<tbody>${cellsOf(field).map((cells, k) =>
-  `<tr><th>${k + 1}</th>${cells.map((text, n) => `<td${field.columns[n].texts ? ' class="ms-text"' : ""}>${escaped(text)}</td>`).join("")}</tr>`).join("")}</tbody></table>`;
+  `<tr><th>${k + 1}</th>${cells.map((text, n) => (field.columns[n].texts
+    ? `<td class="ms-text">${escaped(text)}</td>` : `<td>${inWords(escaped(text))}</td>`)).join("")}</tr>`).join("")}</tbody></table>`;
 
 function fillGrid(field, text) {
   const grid = gridOf(field), width = field.columns.length;

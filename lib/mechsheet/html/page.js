@@ -265,7 +265,7 @@ function mark(field, changed, error) {
   const used = document.querySelector(`[data-used="${field.name}"]`);
   used.classList.toggle("ms-changed", changed);
   if (field.kind === "rows") set(used.nextElementSibling.cells[0], onPaper(field));
-  else used.cells[1].textContent = typed(field);
+  else set(used.cells[1], (field.kind === "number" ? inWords : String)(escaped(typed(field))));
 }
 
 // The verdicts of all checks where they are summed up, the worst first, and how many solve blocks found nothing.
