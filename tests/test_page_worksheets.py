@@ -52,11 +52,18 @@ def assert_fits_a_telephone(page) -> None:
 
 
 def assert_fits_on_paper(page) -> None:
-    """What is wider than a sheet widens the whole page, which is cut at its edge."""
+    """What is wider than a sheet widens the whole page, which is cut at its edge; a list leaves the meanings room."""
     size = page.viewport_size
     page.emulate_media(media="print")
     page.set_viewport_size({"width": 718, "height": 1000})
     assert page.evaluate("document.getElementById('App').getBoundingClientRect().right - innerWidth") <= 0
+    squeezed = """all => all.filter(e => {
+      const text = document.createRange();
+      text.selectNodeContents(e);
+      return text.getClientRects().length > 1 && e.clientWidth < 300;
+    }).map(e => e.textContent)"""
+    meanings = page.locator(".ms-print:has(table) > tbody > tr > td:last-child:not(:only-child)")
+    assert meanings.evaluate_all(squeezed) == []
     page.set_viewport_size(size)
     page.emulate_media(media="null")
 
