@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mechsheet.mechanics.group import Reach
+from mechsheet.mechanics.group import ROUNDINGS, Reach
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rrr import RRRAcceleration, RRRReactions, RRRVelocity
 from mechsheet.quantities.elementary_group import carried, determinant, loaded_end, moved
@@ -13,10 +13,10 @@ from mechsheet.quantities.elementary_planar import Quantity, cross, dot, settled
 
 def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity) -> Quantity:
     d = step("d", "m", "from the first outer pin to the second", B - A)
-    L = step("L", "m", "distance of the outer pins", np.abs(d))
-    excess = ((r_A + r_B - L) / L) * ((L + r_A - r_B) / L) * ((L - r_A + r_B) / L)  # over L: of lengths of any size
-    square = ((L + r_A + r_B) / L) * settled(excess, (r_A / L) * (r_B / L))
-    along = (1 + ((r_A - r_B) / L) * ((r_A + r_B) / L)) / 2
+    LL = step("LL", "m**2", "squared distance of the outer pins", dot(d, d))
+    over, under = (r_A + r_B) ** 2 / LL - 1, 1 - (r_A - r_B) ** 2 / LL
+    square = np.where(np.abs(np.minimum(over, under)) <= ROUNDINGS, 0.0, over * under)  # zero of links in one line
+    along = (1 + (r_A - r_B) * (r_A + r_B) / LL) / 2
     q = step("q", "-", "inner pin along the line of the outer pins, part of it", along)
     h = step("h", "-", "inner pin across that line, part of it", branch * np.sqrt(square) / 2)
     return whole(A + (q + 1j * h) * d, d, h)
