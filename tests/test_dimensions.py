@@ -395,6 +395,13 @@ def test_what_is_not_followed_is_said_and_passes(told: Callable[..., Dimensions]
     assert (check.name, check.passed, check.reason) == ("units", False, f"line {FIRST}, g.F + g.M: adds N and N·m")
 
 
+def test_lines_that_are_not_followed_and_have_the_same_number_have_each_their_own_unit(tmp_path: Path) -> None:
+    lines = [f"{name} = json.loads(json.dumps(g.F))  # [{unit}] read" for name, unit in (("y", "m"), ("z", "s"))]
+    assert mismatches(own(tmp_path, "\n".join(["import json", *lines])).path) == []
+    alone = own(tmp_path, "\n".join(["import json", lines[0], "w = y * g.a  # [s] in metres"]))
+    assert [mistake.part for mistake in mismatches(alone.path)] == ["w"], "of one line alone the unit is known"
+
+
 def test_a_script_tells_mistakes_of_lines_on_which_nothing_rests(tmp_path: Path) -> None:
     """They are typeset with their units, though no table, found value or check takes them; the exit code tells."""
     sheet = own(tmp_path, 'y = g.F * x  # [-] shown\ntable_2 = table("2", "Two", y)')

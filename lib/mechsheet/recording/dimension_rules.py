@@ -137,8 +137,13 @@ class Reader:
     def settle(self, node: Node) -> None:
         """Compare a value with its declared units; in that of the line which made it, it is taken from here on.
 
-        Where the two do not fit, either may be wrong: what rests on them is not told as well.
+        Where the two do not fit, either may be wrong: what rests on them is not told as well. Lines that are not
+        followed are one node where they have the same numbers, each in its own unit.
         """
+        if node.op == "exported":
+            own = {self.of_unit(line.unit) for line in self.declared[node] if not line.mistake}
+            self.codes[node] = own.pop() if len(own) == 1 else UNKNOWN
+            return
         for line in self.declared[node]:
             if line.mistake:
                 continue
