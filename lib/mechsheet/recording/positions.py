@@ -200,7 +200,11 @@ def _compares_alike(recorded: Residual, own: Check) -> bool:
     end, factor = min if recorded.at_least else max, units.parse(recorded.unit).factor
     values = [x for part in recorded.parts for x in part.value.flat]
     off = np.array([end(values, default=0.0), recorded.limit.value]) - np.array([own.residual, own.limit]) * factor
-    return not own.evaluated or bool((abs(off) <= 1e-7 * max(abs(own.residual), abs(own.limit)) * factor).all())
+    return (
+        not own.evaluated
+        or own.agreement
+        or bool((abs(off) <= 1e-7 * max(abs(own.residual), abs(own.limit)) * factor).all())
+    )
 
 
 def _listed(graph: Graph, value: Any) -> Any:

@@ -391,7 +391,8 @@ class Run(OfPositions):
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
-        return [name for name in names if not stage.same(self.names.get(name), self.namespace.get(name))]
+        values = ((name, self.names.get(name), self.namespace.get(name)) for name in names)
+        return [name for name, value, own in values if not stage.same(value, own, name in self.lines)]
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""

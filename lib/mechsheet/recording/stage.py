@@ -330,13 +330,16 @@ class Stage:
         )
         return any(number not in self.recording.tables for number in numbers)
 
-    def same(self, value: Any, own: Any) -> bool:
-        """Whether a recorded value has the worksheet's own numbers but for rounding of what it is made of, or texts."""
+    def same(self, value: Any, own: Any, shown: bool = False) -> bool:
+        """Whether a recorded value has the worksheet's own texts, or numbers but for the rounding of what it is made of.
+
+        Of a list, where it may be ``shown`` as a column.
+        """
         if isinstance(value, Texts) and isinstance(own, np.ndarray | list):
             return value.now == solving.listed(self.graph, own).tolist()
         numbers = int | float | complex | np.ndarray | np.generic
-        if self.graph.thin > 1 and isinstance(value, list | tuple) and isinstance(own, list | tuple) and value and own:
-            flat = all(isinstance(x, numbers) and not np.ndim(x) for x in own)
+        if shown and self.graph.thin > 1 and isinstance(value, list | tuple) and isinstance(own, list | tuple):
+            flat = value and own and all(isinstance(x, numbers) and not np.ndim(x) for x in own)
             value, own = (np.stack(value), np.asarray(own)) if flat else (value, own)
         if not isinstance(own, numbers):
             return True
