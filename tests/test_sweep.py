@@ -245,7 +245,8 @@ with app.setup:
     from mechsheet import typeset
     from mechsheet import inputs
 
-    RUNS = []
+    from collections import UserList
+    RUNS = UserList()  # which each run goes on with: a list is as the setup made it
 
 @app.class_definition
 @inputs

@@ -57,6 +57,7 @@ class Run(OfPositions):
         super().__init__(Recording(graph, known, every=graph.thin))
         self.sheet, self.namespace, self.asked = sheet, namespace, beforehand(g)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
+        sheet.begun.again()
         self.names: dict[str, Any] = shared(sheet.common) | self.asked
         self.listed: dict[str, Any] = {}  # lists of lines, each as one quantity
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on

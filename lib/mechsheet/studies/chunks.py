@@ -76,8 +76,9 @@ class Job:
 
     def _quietly(self, columns: Mapping[str, Any]) -> np.errstate:
         """What has no value is NaN here, and no reason for a warning."""
-        alone = "raise" if self.refusing and varied(columns) else "ignore"
-        return np.errstate(all="ignore", divide=alone, over=alone)
+        if self.refusing and varied(columns):
+            return np.errstate(all="ignore", divide="raise", over="raise")
+        return np.errstate(all="ignore")
 
     def _run_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> Part:
         sheet, count = self._sheet(), _count(columns)
@@ -271,6 +272,7 @@ class _Read:
 
 def _run(sheet: Worksheet, cells: Iterable[Cell], g: Any, names: dict[str, Any]) -> Iterator[Cell]:
     """Run the cells one by one, their names in ``names``."""
+    sheet.begun.again()
     names |= {**sheet.common, "g": g}
     for cell in cells:
         # Nothing stated is of the run of a worksheet that asks for this one.

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.worksheet import data_file, mistakes, source
+from mechsheet.worksheet.begun import Begun
 from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating, unkept
 from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
@@ -52,6 +53,7 @@ class Worksheet:
     errors: Mapping[str, Any] = field(default_factory=dict)  # what its setup has numpy do about errors
     comments: dict[int, str] = field(default_factory=dict)  # of the lines of its file
     whole: tuple[ast.stmt, ...] = ()  # all statements of its setup, classes and functions
+    begun: Begun = field(default_factory=Begun)  # what its setup holds as a run begins
 
     def defining(self) -> list[ast.stmt]:
         """Of its setup all but imports and the class of the inputs."""
@@ -77,6 +79,7 @@ class Worksheet:
         return self._run([*order, *(cell for cell in self.cells if cell not in order)], {})
 
     def _run(self, cells: Iterable[Cell], given: Mapping[str, Any]) -> dict[str, Any]:
+        self.begun.again()
         names = {**self.common, **given}
         with raised(), np.errstate(**self.errors), stating() as names[STATED]:
             for cell in cells:
@@ -101,6 +104,7 @@ class Worksheet:
 
         Raises SheetError for the first of them that fails.
         """
+        self.begun.again()
         names, lost = {**self.common, **given}, set[str]()
         closing = [name for cell in self.cells if cell.closing for name in cell.gives]
         with raised(), np.errstate(all="ignore"):
@@ -306,7 +310,7 @@ def read(path: Path) -> Worksheet:
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
     title, own = _title(tree) or path.stem, tuple(_cells(tree, text, path))
-    return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines))
+    return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines), Begun(common.values()))
 
 
 def _title(tree: ast.Module) -> str | None:
