@@ -68,6 +68,10 @@ IMPORT = "from mechsheet import typeset\n"
         ("a - (b + c)", r"a - (b + c)"),
         ("a + (b - c)", r"a + b - c"),
         ("a*(b + c)/d", r"\frac{a\,(b + c)}{d}"),
+        ("a/b/c", r"\frac{a}{b\,c}"),  # which no one writes as a fraction of fractions
+        ("-a/(b + c)/d/2", r"-\frac{a}{(b + c)\,d \cdot 2}"),
+        ("a/b*c/d/e", r"\frac{a}{b}\,\frac{c}{d\,e}"),
+        ("a/(b/c)", r"\frac{a}{\frac{b}{c}}"),
         ("-(a + b)", r"-(a + b)"),
         ("-a**2", r"-a^{2}"),
         ("(-a)**2", r"(-a)^{2}"),

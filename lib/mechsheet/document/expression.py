@@ -3,7 +3,7 @@
 import ast
 import re
 from collections.abc import Callable, Iterable, Mapping
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 from mechsheet.document import comprehension, functions, names, solved
@@ -217,7 +217,14 @@ class _Reader:
             case ast.Mult() | ast.Div() if positive := _without_minus(node):
                 return Signed("-", self.read(positive))
             case ast.Div():
-                return Fraction(self.read(left), self.read(right))
+                under = [right]
+                while isinstance(left, ast.BinOp) and isinstance(left.op, ast.Div):  # one fraction, not one on another
+                    under, left = [left.right, *under], left.left
+                below: ast.expr = reduce(lambda a, b: ast.BinOp(a, ast.Mult(), b), under)
+                match left:
+                    case ast.BinOp(ast.BinOp(op=ast.Div()) as first, ast.Mult(), factor):  # two beside each other
+                        return self.product(first, ast.BinOp(factor, ast.Div(), below))
+                return Fraction(self.read(left), self.read(below))
             case ast.FloorDiv():
                 return Brackets((Fraction(self.read(left), self.read(right)),), "⌊⌋")
             case ast.Pow():
@@ -228,11 +235,8 @@ class _Reader:
                 return Binary(self.least(left, PRODUCT), "mod", self.least(right, PRODUCT))
             case ast.Add():
                 second = self.least(right, SUM)
-                return Binary(
-                    self.least(left, SUM),
-                    "+",
-                    Brackets((second,)) if begins_negative(second) or _is_rest(second) else second,
-                )
+                closed = begins_negative(second) or _is_rest(second)
+                return Binary(self.least(left, SUM), "+", Brackets((second,)) if closed else second)
             case ast.Sub():
                 return Binary(self.least(left, SUM), "-", self.least(right, PRODUCT))
             case ast.MatMult():
