@@ -392,8 +392,7 @@ class Run(OfPositions):
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
-        values = ((name, self.names.get(name), self.namespace.get(name)) for name in names)
-        return [name for name, value, own in values if not stage.same(value, own, name in self.lines)]
+        return [x for x in names if not stage.same(self.names.get(x), self.namespace.get(x), x in self.lines)]
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""

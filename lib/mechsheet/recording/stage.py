@@ -331,12 +331,9 @@ class Stage:
         return any(number not in self.recording.tables for number in numbers)
 
     def same(self, value: Any, own: Any, shown: bool = False) -> bool:
-        """Whether a recorded value has the worksheet's own texts, or numbers but for the rounding of what it is made of.
-
-        Of a list, where it may be ``shown`` as a column.
-        """
+        """Whether a recorded value has the worksheet's texts, or numbers but for rounding; lists where ``shown``."""
         if isinstance(value, Texts) and isinstance(own, np.ndarray | list):
-            return value.now == solving.listed(self.graph, own).tolist()
+            return bool(value.now == solving.listed(self.graph, own).tolist())
         numbers = int | float | complex | np.ndarray | np.generic
         if shown and self.graph.thin > 1 and isinstance(value, list | tuple) and isinstance(own, list | tuple):
             flat = value and own and all(isinstance(x, numbers) and not np.ndim(x) for x in own)
@@ -433,10 +430,12 @@ def held(own: Any) -> bool:
 
 
 def _differences(f: Callable[..., Any], at: Quantity, step: Any) -> tuple[Any, Any]:
-    """Central differences at some places, by a step and by twice that."""
-    first, second, fourth = (f(at + n * step) - f(at - n * step) for n in (1, 2, 4))
-    if np.shape(first) != at.shape:
+    """Central differences at some places, by a step and by twice that; a function of arrays is asked once."""
+    moves = np.array([1, -1, 2, -2, 4, -4])
+    each = [*f(np.add.outer(moves * step, at))] if at.ndim else [f(at + n * step) for n in moves.tolist()]
+    if len(each) != len(moves) or np.shape(each[0]) != at.shape:
         raise NotRecorded("a function of one number")
+    first, second, fourth = (up - down for up, down in zip(each[::2], each[1::2], strict=True))
     return (8 * first - second) / (12 * step), (8 * second - fourth) / (24 * step)
 
 
