@@ -162,3 +162,26 @@ def test_a_check_that_is_called_like_a_function_is_wanted_and_limited(tmp_path: 
     (judged,) = compute(sheet, "scene", given)[0].checks
     assert (judged.residual, judged.limit) == (3, 3.5)
     assert [evaluate(sheet.path, ["sqrt"], F=F)["sqrt"].residual for F in (4.0, 9.0, 16.0)] == [2, 3, 4]
+
+
+def test_checks_that_take_the_same_stand_as_they_are_stated(tmp_path: Path, page: Page) -> None:
+    """In the summary they kept the order in which other inputs had left them."""
+    lines = """
+first = check("first", 4 + g.n, 10.0)
+second = check("second", 10.0 - g.n, 10.0)
+third = check("third", 7.0, 10.0)
+"""
+    path = tmp_path / "order.py"
+    text = written(SETUP.replace("import Drawing, ", "import Drawing, summary, "), GIVEN, lines)
+    path.write_text(text.replace("    return first", "    typeset(summary(first, second, third), third)\n    return first"))
+    file = tmp_path / "order.html"
+    file.write_text(write.page(load(path), load(path).inputs()), encoding="utf-8")
+    page.goto(file.as_uri())
+
+    def order(n: int) -> list[str]:
+        page.locator("#input-n").fill(str(n))
+        return page.locator(".ms-summary .ms-row a").all_inner_texts()
+
+    assert order(4) == ["first", "third", "second"]
+    assert order(2) == ["second", "third", "first"]
+    assert order(3) == ["first", "second", "third"]

@@ -268,11 +268,14 @@ function mark(field, changed, error) {
   else set(used.cells[1], (field.kind === "number" ? inWords : String)(escaped(typed(field))));
 }
 
+// Where checks are summed up, with those in the order in which they are stated, in which equal ones stay.
+const summedUp = [...document.querySelectorAll(".ms-summary")].map(each => [each, [...each.querySelector(".ms-row").children]]);
+
 // The verdicts of all checks where they are summed up, the worst first, and how many solve blocks found nothing.
 function sum() {
-  for (const summary of document.querySelectorAll(".ms-summary")) {
+  for (const [summary, stated] of summedUp) {
     const row = summary.querySelector(".ms-row"), counts = {PASS: 0, FAIL: 0, OPEN: 0};
-    const items = [...row.children].map(item => {
+    const items = stated.map(item => {
       const check = document.getElementById(item.dataset.of), badge = check?.querySelector(".ms-badge");
       const kind = /ms-(PASS|FAIL|OPEN)/.exec(badge?.className)?.[1] ?? "OPEN";
       counts[kind]++;
