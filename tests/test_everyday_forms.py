@@ -265,6 +265,16 @@ PLACED = [  # by a condition that tells other elements for other inputs
     "z = x + 1j * g.a\nz[np.flatnonzero(x > g.F)] = 2.0\ny = abs(z).sum()",
     "Z = np.outer(x, [1.0, g.a])\nZ[Z > g.F] = 0.0\ny = Z.sum()",
 ]
+WAYS = "{0: lambda v: -v, 1: lambda v: v + 1, 2: lambda v: v * g.a, 3: lambda v: v**2}"
+FUNCTIONS = [  # of which a number or a condition says which one is called
+    f"y = {WAYS}[g.k](g.F)",
+    f"way = {WAYS}[g.k]\ny = way(x)[1] + (way(g.F) if g.a > 0.5 else way(g.a))",
+    f"y = {WAYS}.get(g.k + 1, lambda v: 3 * v)(g.F)",
+    "y = [np.exp, np.cos, np.sin, math.sqrt][g.k](g.F)",
+    "f = np.sin if g.F > 3 else np.cos\ny = f(x) * g.a",
+    "f, c = {2: (np.sin, 1.0), 3: (lambda v: v - g.a, 2.0)}[g.k]\ny = c * f(g.F)",
+    "def f(v):\n    return 2 * v\nway = f if g.k > 2 else np.sqrt\ny = (way if g.F < 3 else np.exp)(g.a)",
+]
 EIGEN = [  # of which the vectors have a sign as numpy's steps end
     "w, V = np.linalg.eigh(np.array([[2 * g.F, -g.F], [-g.F, g.F + g.a]]))\ny = np.sqrt(w)",
     "r = np.linalg.eigh(np.diag([g.F, 2.0, 3.0]) - g.a)\ny = r[1] * 0 + r.eigenvalues if g.F < 0 else r[0]",
@@ -304,6 +314,7 @@ GUARDED = [  # where other inputs change what there is
     "y = np.zeros(len(x[x > g.F])) + x[x > g.F] + g.a",
     "y = x[x > g.F][1:].sum() + g.a",
     "T = zip([1, 2, 3, 5, 8], 'abcde')\nfor d, _ in T:\n    if d > g.F:\n        break\ny = next(T)[0] * g.a",
+    "K = np.zeros(2)\ndef f(v):\n    K[0] = v\n    return v\ny = {2: f, 3: lambda v: 2 * v}[g.k](g.F) + K",
     "row = {'R': g.F, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'n': 'yy'}\ny = row['R'] * len(row['n'])",
 ]
 
@@ -336,6 +347,19 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
         value = value_of(recording, "result", given)
         if not (lines in GUARDED and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.parametrize("lines", FUNCTIONS)
+def test_a_function_that_is_chosen_is_followed(lines: str, tmp_path: Path) -> None:
+    """While there is such a one: which one it is was seen as soon as more than two of the worksheet's were there."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for given in [each for each in ELSEWHERE if "n" not in each] + [{"F": 3.5, "k": 3}, {"F": 4.0, "a": 0.25}]:
+        known = numbers([*recording.guards], {recording.inputs[key]: float(x) for key, x in given.items()})
+        assert all(known[guard] for guard in recording.guards), given
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
 
 
 @pytest.mark.parametrize("lines", READ_OTHERWISE)

@@ -22,7 +22,7 @@ from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
-from mechsheet.recording.memory import before_ways, may_change
+from mechsheet.recording.memory import before_ways, may_change, stands_for_others
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -186,6 +186,8 @@ def way_may_change(f: Callable[..., Any]) -> bool:
     if not isinstance(f, FunctionType):
         return False
     inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
+    if stands_for_others(f):
+        return any(way_may_change(g) for g in inner if g is not f)
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)
 
 

@@ -270,16 +270,25 @@ def _read(f: Any) -> list[Any]:
     """What a function reads, but for its arguments."""
     if not isinstance(f, FunctionType):
         return [f]
-    return [f.__closure__, *(f.__globals__.get(name) for name in names_of(f.__code__))]
+    names = () if stands_for_others(f) else names_of(f.__code__)
+    return [f.__closure__, *(f.__globals__.get(name) for name in names)]
+
+
+def stands_for_others(f: FunctionType) -> bool:
+    """Whether a function is none of the worksheet's, but does what one or one of two do that it holds."""
+    return str(f.__module__).startswith("mechsheet.")
 
 
 def _shared(*functions: Any) -> Mapping[str, Any]:
     """The names of the worksheet that its functions share; what stands for one of two of them calls these."""
-    for f in functions:
-        if isinstance(f, FunctionType):
-            inner = chain.from_iterable(map(_content, f.__closure__ or ()))
-            if own := _shared(*inner) if str(f.__module__).startswith("mechsheet.") else f.__globals__:
-                return own
+    waiting, seen = list(functions), set[FunctionType]()
+    while waiting:
+        f = waiting.pop(0)
+        if isinstance(f, FunctionType) and f not in seen:
+            seen.add(f)
+            if not stands_for_others(f):
+                return f.__globals__
+            waiting[:0] = chain.from_iterable(map(_content, f.__closure__ or ()))
     return {}
 
 
