@@ -273,6 +273,8 @@ FUNCTIONS = [  # of which a number or a condition says which one is called
     "y = [np.exp, np.cos, np.sin, math.sqrt][g.k](g.F)",
     "f = np.sin if g.F > 3 else np.cos\ny = f(x) * g.a",
     "f, c = {2: (np.sin, 1.0), 3: (lambda v: v - g.a, 2.0)}[g.k]\ny = c * f(g.F)",
+    "f = getattr(np, 'exp' if g.F > 3 else 'sin')\ny = f(g.a)",
+    "y = getattr(g, ['n', 'k', 'F', 'a'][g.k]) * getattr(g, 'none', 2.0)",
     "def f(v):\n    return 2 * v\nway = f if g.k > 2 else np.sqrt\ny = (way if g.F < 3 else np.exp)(g.a)",
 ]
 EIGEN = [  # of which the vectors have a sign as numpy's steps end

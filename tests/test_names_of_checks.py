@@ -173,7 +173,9 @@ third = check("third", 7.0, 10.0)
 """
     path = tmp_path / "order.py"
     text = written(SETUP.replace("import Drawing, ", "import Drawing, summary, "), GIVEN, lines)
-    path.write_text(text.replace("    return first", "    typeset(summary(first, second, third), third)\n    return first"))
+    path.write_text(
+        text.replace("    return first", "    typeset(summary(first, second, third), third)\n    return first")
+    )
     file = tmp_path / "order.html"
     file.write_text(write.page(load(path), load(path).inputs()), encoding="utf-8")
     page.goto(file.as_uri())

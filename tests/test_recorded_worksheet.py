@@ -749,6 +749,21 @@ y = made()  # [-] set"""
     assert [now[part].tolist() for part in recording.values["y"].parts] == [[0.0, 2.0, 4.0], [0.75] * 3]
 
 
+@pytest.mark.parametrize(
+    ("lines", "reason"),
+    [
+        ("y = 'abab'.count('ab' if g.F > 3 else 'b') + g.F", "must be str, not recorded text"),
+        ("y = len(('b' if g.F > 3 else 'c') * 3) + g.F", "for *: 'recorded text' and 'int'"),
+        ("y = np.sort(x, kind='stable')[0]", "its argument 'kind' is not followed"),
+        ("y = len(range(g.k)) * len('a' * g.k) + g.F", "values that are no numbers"),
+    ],
+)
+def test_the_reason_of_a_gap_names_nothing_that_users_do_not_know(lines: str, reason: str, tmp_path: Path) -> None:
+    """It said Written, Quantity or what stands for a function of numpy's."""
+    (gap,) = recorded(own(tmp_path, f"{lines}  # [-] line"))[1].gaps
+    assert reason in gap.reason
+
+
 def test_the_reason_of_a_gap_has_the_names_as_they_are_written(tmp_path: Path) -> None:
     """Those of one cell alone are called by their cell where they are run."""
     given = "def _f(v):\n    return v\ny = _f(*([g.F] if isinstance(g.F, float) else []))  # [-] line"

@@ -40,11 +40,11 @@ grade = where(x < 5000, "low", where(x < 9000, "mid", "high"))
 other = np.select([x < 5000, x < 9000], ["low", "mid"], "high")
 names = np.array([*W])
 picked = names[np.minimum(np.searchsorted([*W.values()], x / 190e6), 2)]
-each = ["yes" if m < 7000 else "no" for m in x]
+each = np.array(["yes" if m < 7000 else "no" for m in x])
 first = [next((name for name, w in W.items() if w > m / 190e6), "none") for m in x]
 table_1 = table("1", "All", x, low, grade, other, picked, each, first)
 y = g.M * np.arange(3)  # [N*m] others
-kinds = [f"kind {g.kind}", "big" if g.big else "small", "same"]
+kinds = np.asarray([f"kind {g.kind}", "big" if g.big else "small", "same"])
 fixed = [date(2026, 1, n) for n in (1, 2, 3)]
 table_2 = table("2", "Kinds", y, kinds, fixed)
 days = [date(2026, 1, 1) + timedelta(days=n * round(g.M / 1000)) for n in range(3)]

@@ -422,7 +422,7 @@ def lift(graph: Graph, value: Any) -> Quantity:
     if array.dtype.kind == "c":
         return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))
     if array.dtype.kind not in "biuf":
-        raise NotRecorded(f"values of the kind {array.dtype}")
+        raise NotRecorded("values that are no numbers")
     return Quantity(graph, graph.constant(array))
 
 

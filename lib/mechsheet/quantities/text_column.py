@@ -140,6 +140,15 @@ def chosen(graph: Graph, condition: Any, x: Any, y: Any) -> Any:
     return choice(graph, condition, x, y)
 
 
+def chosen_among(graph: Graph, values: Any) -> Texts | None:
+    """A list of texts that numbers choose as a column; None of any other."""
+    if isinstance(values, Texts):
+        return values
+    words = isinstance(values, list | tuple) and any(isinstance(each, Written) for each in values)
+    found = among(graph, values) if words else None
+    return found and Texts("", None, *found)
+
+
 def held_in(graph: Graph, values: NDArray[Any], many: bool) -> Any:
     """An array as a quantity or, where ``many`` are taken of it, as texts; None of any other."""
     if values.dtype.kind in "biufc":

@@ -24,7 +24,10 @@ def of_rows(kind: str, f: Callable[..., Any], plainly: Callable[..., Any], *sour
     ``plainly`` gives what Python makes of them one by one: that is it where ``f`` is no formula of single numbers.
     """
     found = None if way_may_change(f) else _followed(lambda *row: [f(*row)], sources, _numbers)
-    return _whole(kind, found[0]) if found else plainly(*sources)
+    if found:
+        return _whole(kind, found[0])
+    texts = columns(f, *sources) if kind == "array" and current.get().draws else None
+    return texts if isinstance(texts, Texts) else plainly(*sources)
 
 
 def each_of(f: Callable[..., Any], *sources: Any) -> list[Quantity] | None:

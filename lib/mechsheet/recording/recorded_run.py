@@ -26,6 +26,7 @@ from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
 from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
+from mechsheet.recording.named import in_words
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held, is_array, is_number
 from mechsheet.recording.substitutes import Module, instead, shared, staged
@@ -387,8 +388,7 @@ class Run(OfPositions):
             return NotRecorded(taker) if taker else error.with_traceback(None)
         if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
             return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
-        said = str(error).splitlines()[0] if str(error) else repr(error)
-        return NotRecorded(f"it does not run with recorded quantities ({said})")
+        return NotRecorded(f"it does not run with recorded quantities ({in_words(error)})")
 
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""

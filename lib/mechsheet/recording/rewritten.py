@@ -21,6 +21,7 @@ from mechsheet.recording import (
     in_place,
     kept,
     loops,
+    named,
     own_arrays,
     per_row,
     raised,
@@ -64,9 +65,12 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
-CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS
+CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS | named.CALLS
 _ENDS = ast.Break, ast.Continue
-_NAMES = {"float", "int", "complex", "len", "max", "min", "pow", "round", "sorted", "zip", "enumerate", "range"}
+_NAMES = {
+    *("float", "int", "complex", "len", "max", "min", "pow", "round"),
+    *("sorted", "zip", "enumerate", "range", "getattr"),
+}
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
     *(ast.AugAssign, ast.If, ast.While, ast.For, ast.FunctionDef, ast.Try, ast.TryStar, ast.With, ast.Raise),

@@ -28,9 +28,10 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
-from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
+from mechsheet.quantities.quantity import FUNCTIONS, has_quantity, lift, quantities
 from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
+from mechsheet.quantities.text_column import chosen_among
 from mechsheet.quantities.unrepeatable import instead_of_chance
 from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import exactly, scipy_rules, spline_rules
@@ -356,7 +357,9 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
     return function
 
 
-def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) -> Quantity:
+def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) -> Any:
+    if dtype in (None, str, object) and ndmin < 2 and (texts := chosen_among(current.get(), values)) is not None:
+        return texts
     array = lift(current.get(), values)
     array = array if dtype is None else array.astype(dtype)
     return array[(None,) * (ndmin - array.ndim)] if ndmin > array.ndim else array
