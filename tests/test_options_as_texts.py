@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -17,9 +18,10 @@ from mechsheet.html import fields as html_fields
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
 from mechsheet.studies import asked_design
-from mechsheet.worksheet import inputs
+from mechsheet.worksheet import inputs, mistakes
 from mechsheet.worksheet.check import checks_of
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.kinds import Chosen
 from tests.own_worksheet import written
 
 SHEET = written(
@@ -68,6 +70,21 @@ def test_the_chosen_name_is_used_as_a_text(gears: Path, mode: str, names: list[s
     recording = record({**found, "__file__": sheet.path})
     assert [*recording.checks] == names and recording.gaps == []
     assert recording.guards, "of another choice it is another name"
+
+
+@pytest.mark.parametrize(
+    ("takes", "said"),
+    [
+        (lambda mode: getattr(np, mode), "attribute name must be string, not an option (str(..) of an option"),
+        (lambda mode: "".join([mode]), "expected str instance, an option found (str(..) of an option"),
+        (lambda mode: 2 * mode, "'int' and an option (an option is no number"),
+    ],
+)
+def test_what_takes_no_option_is_told_in_words(takes: Callable[[Chosen], object], said: str) -> None:
+    """It said Chosen, and of what takes a text that an option is no number."""
+    with pytest.raises(TypeError) as raised:
+        takes(Chosen(("low", "high"), 1, {}))
+    assert said in mistakes.told(raised.value, "gears.py")
 
 
 def test_whole_numbers_of_options_and_rows_are_counted(gears: Path, tmp_path: Path) -> None:

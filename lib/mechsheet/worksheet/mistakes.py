@@ -192,7 +192,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
         hint = ""  # too many arguments of another kind
     elif hint == _SEVERAL and (typed := re.search(_TYPED, text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
-    return said + (f" ({hint})" if hint else "")
+    return re.sub(r"'?\bChosen\b'?", "an option", said) + (f" ({hint})" if hint else "")
 
 
 def _list(error: BaseException, said: str, text: str) -> str:
@@ -259,6 +259,7 @@ _HINTS = {
     ),
     r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
     r"\bfunction'|type function\b": "a function is computed with what stands in its brackets, such as s(phi)",
+    r"\bstr(ing)?\b.*\bChosen\b": "str(..) of an option is its text",
     r"'Chosen'": "an option is no number: its properties are read by their names, such as g.steel.R_e",
     r"'NoneType'": "a function without return gives None",
     r"truth value of an array": "of many values each is chosen by np.where(condition, this, that)",
