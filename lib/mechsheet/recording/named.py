@@ -14,7 +14,7 @@ from mechsheet.recording.each_row import EachRow
 from mechsheet.recording.sifted import Sifted
 from mechsheet.worksheet.kinds import Chosen
 
-_KNOWN_AS = {
+_KNOWN_AS: dict[type, str] = {
     **dict.fromkeys([Quantity, Selected], "recorded number"),
     **dict.fromkeys([Written, Chosen], "recorded text"),
     **dict.fromkeys([Texts, Listed, EachRow, Sifted], "recorded list"),
