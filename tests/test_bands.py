@@ -394,6 +394,7 @@ AT_ITS_LEAST = """
 e = (g.F - 2.5) ** 2  # [-] least at the value itself
 s = 2 if e < 0.04 else 5  # [-] size by it
 z = np.sqrt(g.F - 2.0)  # [-] none for some
+w = np.where(g.F < 2.2, 20, 1) * z  # [-] jumps, and none for some
 check_2 = check("least", e, 0.5)
 check_3 = check("greatest", 0.9 / np.cos(g.F - 2.5), 1)
 check_4 = check("size", 3 * s, 10)
@@ -418,7 +419,8 @@ def test_what_slopes_mislead_about_is_told_by_cases(tmp_path):
     assert re.match(r"it bends: -1\.\.\S+ in 1000 random cases", by_name["t"][-1])
     assert re.match(r"it bends: 0\.64\d+\.\.1\.5708 in 1000 random cases", by_name["v"][-1])
     assert found.sure["upright"] == "in all of 1000 random cases (it bends)", "it is a quarter of a turn at most"
-    assert by_name["s"][-1].startswith("it bends: 2..5 in") and by_name["z"][-1] == "it ends within the tolerances"
+    assert by_name["s"][-1].startswith("it bends: 2..5 in")
+    assert by_name["z"][-1] == by_name["w"][-1] == "it ends within the tolerances"
 
 
 def test_what_bends_to_where_a_line_goes_another_way_jumps(tmp_path):

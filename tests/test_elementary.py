@@ -19,8 +19,10 @@ from mechsheet.quantities import elementary_joint
 from mechsheet.quantities.elementary import in_steps
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.readers.jumps import jumps
 from mechsheet.readers.numbers import numbers as read
+from mechsheet.readers.slopes import slopes
 from mechsheet.recording.substitutes import body, current, instead
 
 HOMES = [import_module(f"mechsheet.mechanics.{each.name}") for each in pkgutil.iter_modules(mechanics.__path__)]
@@ -451,7 +453,7 @@ def test_the_steps_pull_a_symmetrical_section_evenly() -> None:
         own = joint.bending(y, 1.0, 0.0, N)
         with np.errstate(divide="ignore"):
             steps = STEPS[joint.bending](y, np.ones(6), np.float64(0), np.float64(N))
-        assert steps.y_0 == own.y_0 and np.isinf(steps.y_0) and steps.M_c == 0
+        assert steps.y_0 == own.y_0 and np.isinf(steps.y_0)
 
 
 @pytest.mark.parametrize("size", [2.0**-480, 2.0**480])
@@ -459,3 +461,30 @@ def test_the_steps_close_a_dyad_of_any_size(size: float) -> None:
     A, B, r_A, r_B = pins()
     C = STEPS[rrr.rrr](A, B, r_A, r_B, 1)
     np.testing.assert_array_equal(STEPS[rrr.rrr](size * A, size * B, size * r_A, size * r_B, 1), size * C)
+
+
+def inputs_of(graph: Graph, **given: float) -> list[Quantity]:
+    return [Quantity(graph, graph.leaf("input", name, np.asarray(x))) for name, x in given.items()]
+
+
+def test_where_links_lie_in_one_line_the_steps_have_no_slope(graph: Graph) -> None:
+    """It was 0 of a constant that stood for what rounding leaves under the root."""
+    a, b, c = given = inputs_of(graph, a=0.5, b=0.3, c=0.2)
+    C = STEPS[rrr.rrr](0j, a + 0j, b, c, 1)
+    flat = [STEPS[planar.angle_opposite](a, b, c), STEPS[planar.angle_opposite](b, a, c), C.real, C.imag]
+    for slope in slopes([x.re for x in flat], [x.re for x in given]).values():
+        assert np.isnan(slope.both).all()
+
+
+def test_a_symmetrical_section_keeps_its_slopes(graph: Graph) -> None:
+    """Its first moment was a constant 0 within rounding: its tolerances were not followed."""
+    y, M, N = inputs_of(graph, y=0.1, M=1e3, N=100.0)
+    levels = [y, 0.05, -0.05, -0.1]
+    steps = STEPS[joint.bending](np.stack(levels), lift(graph, np.full(4, 1e-4)), M, N)
+    wanted = [steps.y_c.re, steps.sigma[0].re]
+    found = slopes(wanted, [y.re])
+    h = 1e-6
+    more, less = (joint.bending([0.1 + d, 0.05, -0.05, -0.1], 1e-4, 1e3, 100.0) for d in (h, -h))
+    differences = [(more.y_c - less.y_c) / (2 * h), (more.sigma[0] - less.sigma[0]) / (2 * h)]
+    np.testing.assert_allclose([float(found[x].both[0]) for x in wanted], differences, rtol=1e-6)
+    assert not jumps(wanted, [y.re], [1e-3])

@@ -8,7 +8,7 @@ import numpy as np
 from mechsheet.mechanics import joint
 from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.joint import Bending, Ring, Section
-from mechsheet.quantities.elementary_planar import Quantity, settled, step
+from mechsheet.quantities.elementary_planar import Quantity, step
 from mechsheet.quantities.quantity import plain
 
 
@@ -55,16 +55,17 @@ def sum_of_elements(x: Quantity) -> Quantity:
 
 def bending(y: Quantity, A: Quantity, M: Quantity, N: Quantity) -> Bending:
     F = step("F", "m**2", "area", A.sum(axis=-1))
-    first = settled((A * y).sum(axis=-1), (A * np.abs(y)).sum(axis=-1))
-    S = step("S", "m**3", "first moment of area", first)
+    S = step("S", "m**3", "first moment of area", (A * y).sum(axis=-1))
     y_c = S / F
     lever = y - y_c[..., None]
     second = (A * lever**2).sum(axis=-1)
     second = np.where(second > ROUNDINGS**2 * (A * y**2).sum(axis=-1), second, np.nan)  # none of a single level
     I_c = step("I", "m**4", "second moment of area about the centroid", second)
     M_c = M - N * y_c
+    rounding = ROUNDINGS * (np.abs(M) + np.abs(N) * (A * np.abs(y)).sum(axis=-1) / F)
+    turning = np.where(np.abs(M_c) > rounding, M_c, 0.0)  # none where pulled evenly: the axis is at infinity
     sigma = (N / F)[..., None] + (M_c / I_c)[..., None] * lever
-    return Bending(sigma, F, S, y_c, I_c, M_c, y_c - N * I_c / (F * M_c))
+    return Bending(sigma, F, S, y_c, I_c, M_c, y_c - N * I_c / (F * turning))
 
 
 def _numbers(*quantities: Quantity) -> Any:

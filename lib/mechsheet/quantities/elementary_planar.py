@@ -27,8 +27,11 @@ def _is_nothing(x: Quantity) -> bool:
 
 
 def settled(x: Quantity, size: Quantity) -> Quantity:
-    """A difference of what is as large as ``size``; zero where that is no more than its rounding."""
-    return np.where(np.abs(x) <= ROUNDINGS * size, 0.0, x)
+    """A difference of what is as large as ``size``; 0, without a known slope, where it is no more than rounding.
+
+    A constant instead would keep still there, and with it a root that has no slope.
+    """
+    return x * (np.abs(x) > ROUNDINGS * size)
 
 
 def cross(a: Quantity, b: Quantity) -> Quantity:

@@ -10,7 +10,7 @@ from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
-from mechsheet.readers.bands import BENDS, Band, Bands, Tolerance
+from mechsheet.readers.bands import ENDS, Band, Bands, Tolerance
 from mechsheet.readers.cases import JUMPS, RESULTS, Cases, goes_on
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.check import Check
@@ -142,8 +142,12 @@ def run_bands(
             banded[k] = banded[k].told_by(bands.cases, lost, "" if lost else f" ({bands.turns(jump)})")
     bands.look(node for nodes in seen for node in nodes)
     for k, (node, *guards) in enumerate(seen):
-        if not banded[k].band.why and (how := bands.misled(node, guards)):
-            banded[k] = banded[k].told_by(bands.cases, how) if how == BENDS else banded[k].without(how)
+        if banded[k].band.lost or not (how := bands.misled(node, guards)):
+            continue
+        if how == ENDS:  # of which cases would tell no more than those that have numbers
+            banded[k] = banded[k].without(how)
+        elif not banded[k].band.why:
+            banded[k] = banded[k].told_by(bands.cases, how)
     moved = tuple(each for each in banded if each.band.why or np.any(each.band.moves))
     sure = {name: bands.sure(name, passed) for name, (_, passed) in judged.items()}
     return RunBands(by, moved, sure, tuple(bands.cases.told()) if bands.ran else ())
