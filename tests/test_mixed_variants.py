@@ -56,6 +56,7 @@ PYTHONS = {  # whose numbers make of a line what arrays do not, as in a few vari
     "try:\n    y = 1 / (g.F - 2.0)\nexcept Exception:\n    y = 100.0",
     "try:\n    y = g.a / (g.F % (2.0 - g.F))\nexcept ZeroDivisionError:\n    y = 100.0",
     "from contextlib import suppress\ny = 3.0\nwith suppress(OverflowError):\n    y = 10.0 ** (400.0 * (g.F > 2.9))",
+    "from contextlib import suppress as quietly\ny = 3.0\nwith quietly(ZeroDivisionError):\n    y = 1 / (g.F - 2.0)",
     "def f(u):\n    try:\n        return 1 / u\n    except ZeroDivisionError:\n        return 7.0\ny = f(g.F - 2.0)",
     "y = (g.F > 1) + (g.F > 2) + (g.F > 2.9)",
     "y = ((g.F > 2) + True) * g.a",
@@ -69,6 +70,15 @@ def test_a_variant_has_what_python_makes_of_its_numbers(lines: str, tmp_path: Pa
     F = np.array([*np.linspace(0.53, 2.8, 40), 2.0, *np.linspace(1.01, 3.0, 20)])
     alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F.tolist()]
     assert sweep(sheet.path, ["result"], {"F": F})["result"] == pytest.approx(alone, rel=1e-12)
+
+
+def test_a_module_beside_the_worksheet_may_handle_an_error_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    handles = "    try:\n        return 1 / u\n    except ZeroDivisionError:\n        return 7.0\n"
+    (tmp_path / "handles_an_error.py").write_text(f"def inverse(u):\n{handles}", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    sheet = own(tmp_path, "from handles_an_error import inverse\nresult = inverse(g.F - 2.0)  # [-] line")
+    swept = sweep(sheet.path, ["result"], {"F": [*np.linspace(0.53, 2.8, 40), 2.0]})
+    assert swept["result"][-1] == 7.0 and not swept.at_once
 
 
 def test_a_variant_whose_number_is_too_great_for_python_has_none(tmp_path: Path) -> None:

@@ -27,19 +27,20 @@ def is_own(value: Any) -> bool:
         return id(value) in _numbers()
     if isinstance(value, type) and (hasattr(value, "__inputs__") or hasattr(value, "__properties__")):
         return False  # inputs are of this very class
-    return isinstance(value, FunctionType | type) and _is_own(value.__module__)
+    return isinstance(value, FunctionType | type) and is_users(value.__module__)
 
 
 @cache
 def _installed() -> tuple[str, ...]:
     """Folders of modules that are no user's own."""
-    import sysconfig  # on use: only a proof asks
+    import sysconfig  # on use: only a proof or a sweep asks
 
     return tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")})
 
 
 @cache
-def _is_own(module: str) -> bool:
+def is_users(module: str) -> bool:
+    """Whether a module is no installed one, none of the library's and no worksheet."""
     held = vars(modules[module]) if module in modules else {}
     file = str(held.get("__file__") or "")
     is_worksheet = type(held.get("app")).__name__ == "App"
@@ -51,7 +52,7 @@ def _numbers() -> dict[int, tuple[str, str]]:
     """Where the numbers of such modules are from: what is imported of them is the very same object."""
     unmoved: Unmoved = current.get().unmoved
     if unmoved.imported is None:
-        own = [name for name in [*modules] if name != "mechsheet" and _is_own(name)]
+        own = [name for name in [*modules] if name != "mechsheet" and is_users(name)]
         held = ((module, name, value) for module in own for name, value in [*vars(modules[module]).items()])
         kinds = float | complex | np.ndarray
         unmoved.imported = {id(x): (module, name) for module, name, x in held if isinstance(x, kinds)}

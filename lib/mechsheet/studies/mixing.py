@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.recording.own_modules import is_users
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, base
 from mechsheet.worksheet.find import find
@@ -42,8 +43,8 @@ class _Looked(BaseException):
 def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> bool:
     """Whether a wanted result of so many variants is made of all of them at once."""
     cells = sheet.needed(map(base, want), ["g"])
-    shared = [line for line in sheet.whole if isinstance(line, ast.FunctionDef | ast.ClassDef)]
-    if any(_handles(part) for line in (*shared, *(x for cell in cells for x in cell.lines)) for part in ast.walk(line)):
+    lines = (*_shared(sheet), *(line for cell in cells for line in cell.lines))
+    if any(_handles(part) for line in lines for part in ast.walk(line)):
         return True
     marked = {name: _several(x, sheet.path) for name, x in columns.items()}
     common = {name: _asking(held, sheet.path) for name, held in {**_PYTHONS, **sheet.common}.items()}
@@ -63,10 +64,21 @@ def mixes(sheet: Worksheet, want: Sequence[str], columns: Mapping[str, Any]) -> 
     return mixed
 
 
+def _shared(sheet: Worksheet) -> Iterator[ast.stmt]:
+    """What cells may call: of the setup, and of the modules of the user's own that lie beside the worksheet."""
+    folder, bodies = Path(sheet.path).resolve().parent, [sheet.whole]
+    for name in filter(is_users, [*sys.modules]):
+        file = Path(str(sys.modules[name].__file__))
+        if file.suffix == ".py" and file.is_relative_to(folder):
+            bodies.append(tuple(ast.parse(file.read_bytes()).body))
+    kinds = ast.FunctionDef | ast.ClassDef | ast.ImportFrom
+    yield from (line for body in bodies for line in body if isinstance(line, kinds))
+
+
 def _handles(part: ast.AST) -> bool:
     """Whether lines go on after an error, which one variant has alone, as of a division by zero."""
     match part:
-        case ast.Try(handlers=[_, *_]) | ast.TryStar() | ast.Name("suppress") | ast.Attribute(attr="suppress"):
+        case ast.Try(handlers=[_, *_]) | ast.TryStar() | ast.alias("suppress") | ast.Attribute(attr="suppress"):
             return True
     return False
 
