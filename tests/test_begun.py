@@ -25,6 +25,29 @@ KEEPING = {  # by the setup and the lines: that of F, with its slope
     "added to a list in a dictionary": ('LOG = {"F": []}', 'LOG["F"].append(g.F)\ny = sum(LOG["F"])  # [-] y', 1.0),
     "counted": ('STATE = {"n": 0}', 'STATE["n"] += 1\ny = g.F * STATE["n"]  # [-] y', 1.0),
     "an array": ("T = np.zeros(3)", "own = T\nown += g.F\ny = own.sum()  # [-] y", 3.0),
+    "around a function": (
+        "def made():\n    seen, n = [], 0\n    def f(v):\n        nonlocal n\n        n += 1\n        seen.append(v)\n"
+        "        return n * sum(seen)\n    return f\nf = made()",
+        "y = f(g.F)  # [-] y",
+        1.0,
+    ),
+    "by a function itself": (
+        'def f(v):\n    f.seen = getattr(f, "seen", 0.0) + v\n    return f.seen',
+        "y = f(g.F)  # [-] y",
+        1.0,
+    ),
+    "by an instance": (
+        "class Sum:\n    every = []\n    def __init__(self):\n        self.of = 0.0\n        self.own = self\n"
+        "    def add(self, v):\n        self.of += v\n        self.every.append(v)\n"
+        "        return self.of + sum(self.every)\nS = Sum()",
+        "y = S.add(g.F)  # [-] y",
+        2.0,
+    ),
+    "by a name of the setup": (
+        "last = 0.0\ndef f(v):\n    global last\n    last += v\n    return last",
+        "y = f(g.F)  # [-] y",
+        1.0,
+    ),
     "a set and a queue": (
         "A, Q = set(), deque()",
         "A.add(1 + len(A))\nQ.append(g.F)\ny = sum(Q) * len(A)  # [-] y",

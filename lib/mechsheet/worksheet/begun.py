@@ -1,9 +1,9 @@
 """What the setup of a worksheet holds that lines change in place: each run begins with it as the first one did."""
 
 from collections import deque
-from collections.abc import Iterable
+from contextlib import suppress
 from copy import copy
-from types import FunctionType
+from types import CellType, FunctionType
 from typing import Any
 
 import numpy as np
@@ -12,31 +12,46 @@ _HOLDING = list, dict, set, deque
 
 
 class Begun:
-    """Lists, dictionaries, sets and arrays, those in these and of functions by default too, with what they first hold.
+    """The names of a setup and what these hold, down to lists, dictionaries, sets and arrays, with what is first there.
 
-    A dictionary in which a function keeps what it has computed would give numbers of other inputs.
+    Those of its functions by default and around them, and of its classes and what is made of these, are there too: a
+    dictionary in which a function keeps what it has computed would give numbers of other inputs.
     """
 
-    def __init__(self, values: Iterable[Any] = ()) -> None:
-        self.first = dict[int, tuple[Any, Any]]()
-        waiting = list(values)
+    def __init__(self, names: dict[str, Any] | None = None) -> None:
+        names = names or {}
+        self.first, module, known = list[tuple[Any, Any]](), names.get("__name__"), dict[int, Any]()
+        waiting: list[Any] = [names]
         while waiting:
             value = waiting.pop()
-            if id(value) in self.first:
+            if id(value) in known:
                 continue
+            known[id(value)] = value
             if isinstance(value, (*_HOLDING, np.ndarray)):
-                self.first[id(value)] = value, copy(value)
+                self.first.append((value, copy(value)))
             if isinstance(value, (tuple, *_HOLDING)):
                 waiting += value.values() if isinstance(value, dict) else value
-            if isinstance(value, FunctionType):
+            elif isinstance(value, CellType):
+                with suppress(ValueError):  # it is empty
+                    self.first.append((value, value.cell_contents))
+                    waiting.append(value.cell_contents)
+            elif isinstance(value, FunctionType):
                 waiting += [*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
+                if value.__globals__ is names:
+                    waiting += [vars(value), *(value.__closure__ or ())]
+            elif isinstance(value, type) and value.__module__ == module:
+                waiting += vars(value).values()
+            elif type(value).__module__ == module:
+                waiting.append(getattr(value, "__dict__", {}))
 
     def again(self) -> None:
         """Let all of them hold what they held at first, where a run has changed it."""
-        for value, first in self.first.values():
+        for value, first in self.first:
             if isinstance(value, np.ndarray):
                 if value.flags.writeable and value.tobytes() != first.tobytes():
                     value[...] = first
+            elif isinstance(value, CellType):
+                value.cell_contents = first
             elif _parts(value) != _parts(first):
                 value.clear()
                 value.update(first) if isinstance(value, dict | set) else value.extend(first)

@@ -310,7 +310,7 @@ def read(path: Path) -> Worksheet:
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
     title, own = _title(tree) or path.stem, tuple(_cells(tree, text, path))
-    return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines), Begun(common.values()))
+    return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines), Begun(common))
 
 
 def _title(tree: ast.Module) -> str | None:
