@@ -225,7 +225,7 @@ def check(
         return judged(name, residual, limit, unit)
     try:
         size = float(np.max(np.abs(of), initial=0.0))
-    except (TypeError, ValueError):  # of numpy's: they do not say of what
+    except (TypeError, ValueError, OverflowError):  # of numpy's: they do not say of what
         refuse(SheetError(f"check {name}: of= must be numbers, not {as_given(of)}"))
     if isinstance(of, np.ndarray | list | tuple) and not np.size(of):
         return judged(name, (), limit, unit)
@@ -413,7 +413,10 @@ def _open(lost: Any, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit:
 
 def _unreached(lost: NDArray[np.bool_], over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> str:
     factor = measured(unit).factor
-    x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (np.asarray(over), *reaches))
+    try:
+        x, lo, hi = (float(np.broadcast_to(v, np.shape(lost))[lost].flat[0]) / factor for v in (over, *reaches))
+    except (TypeError, ValueError):  # of numpy's: they do not say of what
+        refuse(SheetError(f"{what} and the limits of its reach must be real numbers, one or one for each position"))
     if np.isnan(x):
         return f"no position closes: there is no {what}"
     at, low, high = numbers.apart([x, lo, hi], digits=7)
