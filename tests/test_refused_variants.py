@@ -122,3 +122,10 @@ def test_an_error_in_a_generator_is_told_as_outside_of_one() -> None:
     with pytest.raises(RuntimeError) as raised:
         [*found()]  # type: ignore[call-overload]
     assert mistakes.told(raised.value, "own.py") == f"StopIteration ({NONE})"
+
+
+def test_a_result_that_only_some_ways_bind_has_a_reason_where_others_went(tmp_path: Path) -> None:
+    own(tmp_path, "if g.F > 2:\n    x_m = g.F * 2")
+    swept = sweep(tmp_path / "own.py", ["x_m"], {"F": [1.0, 2.5, 3.0]})
+    np.testing.assert_array_equal(swept["x_m"], [np.nan, 5.0, 6.0])
+    assert [*swept.reasons] == ["x_m has no value: none of the ways that its cell went gives it one", "", ""]

@@ -87,6 +87,7 @@ class Job:
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
             for found in _founds(cell, names):
                 lacking |= ~_by_variant(found.valued, count).all(1)
+        sheet.refuse_unbound(self.want, names)
         among = count if varied(columns) else None
         one_row = among is None and _has_one_row(g)
         wants = {name: np.asarray(_wanted(name, names)) for name in self.want}
@@ -129,10 +130,8 @@ class Job:
         """Whether variants divide by zero."""
         try:
             replace(self, refusing=True).run(columns)
-        except FloatingPointError:
-            return True
-        except Exception:  # whatever a line does that cannot take an array
-            return False
+        except Exception as error:  # or whatever a line does that cannot take an array
+            return isinstance(error, FloatingPointError)
         return False
 
     def _by_recording(self, columns: Mapping[str, Any]) -> Part:
@@ -198,6 +197,7 @@ class Job:
                     for lacking in (*told, *_founds(cell, names)):
                         add(lacking.reason if isinstance(lacking, Verdict) else lacking)
                     told.clear()
+            sheet.refuse_unbound(self.want, names)
         except OF_NUMBERS as error:
             if count > 1 and not self.in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])

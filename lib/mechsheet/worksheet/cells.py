@@ -3,7 +3,7 @@
 import ast
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from copy import copy, deepcopy
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -98,6 +98,13 @@ class Worksheet:
                         raise SheetError(f"{line}: the worksheet ends there, before its checks and workbook") from None
                     raise
         return names
+
+    def refuse_unbound(self, want: Iterable[str], names: Container[str]) -> None:
+        """Raises SheetError for a result that has no value where its cells have ended: another way of one binds it."""
+        given = {name for cell in self.cells for name in cell.gives}
+        for root in map(base, want):
+            if root in given and root not in names:
+                raise SheetError(f"{root} has no value: none of the ways that its cell went gives it one")
 
     def close(self, given: Mapping[str, Any]) -> None:
         """Evaluate the essential checks that can be evaluated.
