@@ -129,3 +129,5 @@ def test_a_result_that_only_some_ways_bind_has_a_reason_where_others_went(tmp_pa
     swept = sweep(tmp_path / "own.py", ["x_m"], {"F": [1.0, 2.5, 3.0]})
     np.testing.assert_array_equal(swept["x_m"], [np.nan, 5.0, 6.0])
     assert [*swept.reasons] == ["x_m has no value: none of the ways that its cell went gives it one", "", ""]
+    with pytest.raises(SheetError, match="x_m has no value: none of the ways"):
+        evaluate(tmp_path / "own.py", ["x_m"], F=1.0)

@@ -62,6 +62,7 @@ def by_cells(sheet: Worksheet, names: Sequence[str], g: Any) -> dict[str, Any]:
     """Results of a run of the cells that they need."""
     with values_only():  # what else a verdict tells it computes when it is read: nobody changes these names any more
         space = sheet.run(names, beforehand(g))
+    sheet.refuse_unbound(names, space)
     return {name: value(name, space) for name in names}
 
 
