@@ -1,11 +1,13 @@
 """What lines keep in lists, dictionaries and arrays of the setup is of one run alone."""
 
+import builtins
 from pathlib import Path
 
 import pytest
 from own_worksheet import written
 
 from mechsheet import evaluate, sensitivity, sweep
+from mechsheet.worksheet import cells
 
 IMPORTS = "import numpy as np\nfrom collections import deque\nfrom mechsheet import ask, read, inputs\n"
 KEEPING = {  # by the setup and the lines: that of F, with its slope
@@ -66,3 +68,13 @@ def test_no_run_has_what_another_one_kept(setup: str, lines: str, slope: float, 
         assert sensitivity(path, ["y"], F=F).slopes["y"].tolist() == pytest.approx([slope])
     for F in ([1.0, 2.0, 4.0], [3.0], [2.0, 1.0]):
         assert sweep(path, ["y"], {"F": F})["y"].tolist() == pytest.approx([slope * x for x in F])
+
+
+def test_names_of_python_itself_stay(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """They were taken away and put back before a run, once they had become others: all that ran met none."""
+    path = tmp_path / "plain.py"
+    path.write_text(written(IMPORTS, "F: float = 2.5  # [-] number", "y = g.F + 1  # [-] y"))
+    sheet = cells.load(path)
+    monkeypatch.setattr(builtins, "told_last", 1.0, raising=False)
+    assert sheet.run(["y"], {"g": sheet.inputs()})["y"] == 3.5
+    assert vars(builtins)["told_last"] == 1.0 and next(iter(vars(builtins))) == "__name__"

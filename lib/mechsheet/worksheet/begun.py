@@ -20,8 +20,8 @@ class Begun:
 
     def __init__(self, names: dict[str, Any] | None = None) -> None:
         names = names or {}
-        self.first, module, known = list[tuple[Any, Any]](), names.get("__name__"), dict[int, Any]()
-        waiting: list[Any] = [names]
+        self.first, module, waiting = list[tuple[Any, Any]](), names.get("__name__"), list[Any]([names])
+        known = {id(names.get("__builtins__")): None}  # Python's own are of all that runs
         while waiting:
             value = waiting.pop()
             if id(value) in known:
@@ -53,8 +53,20 @@ class Begun:
             elif isinstance(value, CellType):
                 value.cell_contents = first
             elif _parts(value) != _parts(first):
-                value.clear()
-                value.update(first) if isinstance(value, dict | set) else value.extend(first)
+                _put(value, first)
+
+
+def _put(value: Any, first: Any) -> None:
+    """Let one hold this; a dictionary is never empty meanwhile, for functions may read their names in it."""
+    if isinstance(value, dict):
+        for name in value.keys() - first.keys():
+            del value[name]
+        for name, held in first.items():
+            value.pop(name, None)
+            value[name] = held
+    else:
+        value.clear()
+        value.update(first) if isinstance(value, set) else value.extend(first)
 
 
 def _parts(value: Any) -> list[Any]:
