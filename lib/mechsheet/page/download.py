@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import marimo as mo
 
-from mechsheet.page import notebook
 from mechsheet.page.design import Design, Designing
 from mechsheet.page.study import Asked, Study
 from mechsheet.worksheet.errors import SheetError
@@ -27,24 +26,16 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
     Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``, and what it would
     take to have others.
     """
-    told, last = list[str](), ""
+    told = list[str]()
 
-    def shown() -> str:
+    def shown() -> mo.Html:
         lines = "<br>".join(map(escape, told))
         side = "".join(button.text for button in buttons)
         below = f'<div class="ms-row">{side}</div><div class="ms-note">{lines}</div>'
-        return f"<div>{study.text}{design.text}{below}</div>"
+        return mo.Html(f"<div>{study.text}{design.text}{below}</div>")
 
     def redraw() -> None:
-        nonlocal last
-        last = shown()
-        mo.output.replace(mo.Html(last))
-
-    def changed() -> None:
-        study.offer()
-        design.offer()
-        if shown() != last:
-            redraw()
+        mo.output.replace(shown())
 
     def pressed(file: File) -> bytes:
         told[:] = [f"{file.name} is not written"]
@@ -59,7 +50,4 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
 
     study, design = Study(asked, namespace, redraw), Design(designing, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
-    last = shown()
-    if mo.app_meta().mode == "edit":
-        notebook.follow(changed)
-    return mo.Html(last)
+    return shown()
