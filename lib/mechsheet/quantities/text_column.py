@@ -144,7 +144,7 @@ def chosen_among(graph: Graph, values: Any) -> Texts | None:
     """A list of texts that numbers choose as a column; None of any other."""
     if isinstance(values, Texts):
         return values
-    words = isinstance(values, list | tuple) and any(isinstance(each, Written) for each in values)
+    words = type(values) in (list, tuple) and any(isinstance(each, Written) for each in values)
     found = among(graph, values) if words else None
     return found and Texts("", None, *found)
 
