@@ -45,11 +45,6 @@ KEEPING = {  # by the setup and the lines: that of F, with its slope
         "y = S.add(g.F)  # [-] y",
         2.0,
     ),
-    "by a name of the setup": (
-        "last = 0.0\ndef f(v):\n    global last\n    last += v\n    return last",
-        "y = f(g.F)  # [-] y",
-        1.0,
-    ),
     "a set and a queue": (
         "A, Q = set(), deque()",
         "A.add(1 + len(A))\nQ.append(g.F)\ny = sum(Q) * len(A)  # [-] y",

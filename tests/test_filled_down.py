@@ -42,7 +42,7 @@ OF_SEVERAL = {
         "w_he": 3,
         "F_e": 2,
         "y_ce": 2,  # as printed and right
-        "axes_11": 10,
+        "axes_40": 10,
         "steps_13": 10,  # steps of the iteration
         "A_A_1": 2,  # TRUE and FALSE, as exported
     },

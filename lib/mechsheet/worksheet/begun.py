@@ -12,16 +12,17 @@ _HOLDING = list, dict, set, deque
 
 
 class Begun:
-    """The names of a setup and what these hold, down to lists, dictionaries, sets and arrays, with what is first there.
+    """What the names of a setup hold, down to lists, dictionaries, sets and arrays, with what is first there.
 
     Those of its functions by default and around them, and of its classes and what is made of these, are there too: a
-    dictionary in which a function keeps what it has computed would give numbers of other inputs.
+    dictionary in which a function keeps what it has computed would give numbers of other inputs. What a name is bound
+    to stays, as what is Python's own.
     """
 
     def __init__(self, names: dict[str, Any] | None = None) -> None:
         names = names or {}
-        self.first, module, waiting = list[tuple[Any, Any]](), names.get("__name__"), list[Any]([names])
-        known = {id(names.get("__builtins__")): None}  # Python's own are of all that runs
+        self.first, module, waiting = list[tuple[Any, Any]](), names.get("__name__"), [*names.values()]
+        known = {id(x): x for x in (names, names.get("__builtins__"))}
         while waiting:
             value = waiting.pop()
             if id(value) in known:
@@ -35,10 +36,9 @@ class Begun:
                 with suppress(ValueError):  # it is empty
                     self.first.append((value, value.cell_contents))
                     waiting.append(value.cell_contents)
-            elif isinstance(value, FunctionType):
+            elif isinstance(value, FunctionType) and value.__globals__ is names:
                 waiting += [*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
-                if value.__globals__ is names:
-                    waiting += [vars(value), *(value.__closure__ or ())]
+                waiting += [vars(value), *(value.__closure__ or ())]
             elif isinstance(value, type) and value.__module__ == module:
                 waiting += vars(value).values()
             elif type(value).__module__ == module:
