@@ -628,7 +628,7 @@ def test_a_recording_puts_nothing_into_lists_of_the_setup(tmp_path: Path) -> Non
     sheet = cells.load(path)
     _, recording = recorded(sheet)
     held = [*sheet.common["seen"], *sheet.common["known"]["all"].values(), *sheet.common["known"]["list"]]
-    assert held == [1.0], "what they hold as a run begins"
+    assert held == [1.0] and all(type(x) is float for x in held), "what they hold as a run begins"
     assert value_of(recording, "y", {"F": 4.0}) == 8.0 and not recording.gaps
 
 

@@ -4,7 +4,6 @@ import ast
 import inspect
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from functools import cache
 from sys import modules
 from types import BuiltinFunctionType, FunctionType
 from typing import Any
@@ -15,6 +14,7 @@ from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.recording.exactly import Unmoved
 from mechsheet.recording.rewritten import compiled
 from mechsheet.worksheet.source import bound
+from mechsheet.worksheet.users import is_users
 
 Shared = Callable[[Mapping[str, Any]], dict[str, Any]]
 
@@ -28,24 +28,6 @@ def is_own(value: Any) -> bool:
     if isinstance(value, type) and (hasattr(value, "__inputs__") or hasattr(value, "__properties__")):
         return False  # inputs are of this very class
     return isinstance(value, FunctionType | type) and is_users(value.__module__)
-
-
-@cache
-def _installed() -> tuple[str, ...]:
-    """Folders of modules that are no user's own."""
-    import sysconfig  # on use: only a proof or a sweep asks
-
-    return tuple({sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")})
-
-
-@cache
-def is_users(module: str) -> bool:
-    """Whether a module is no installed one, none of the library's and no worksheet."""
-    held = vars(modules[module]) if module in modules else {}
-    file = str(held.get("__file__") or "")
-    is_worksheet = type(held.get("app")).__name__ == "App"
-    others = is_worksheet or module.startswith(("mechsheet.", "__main__")) or file.startswith(_installed())
-    return bool(file) and not others
 
 
 def _numbers() -> dict[int, tuple[str, str]]:

@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.recording.own_modules import is_users
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import Worksheet, base
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import minerr
+from mechsheet.worksheet.users import is_users
 from mechsheet.worksheet.verdict import values_only
 
 COUNT = 43  # variants: hardly a field has as many positions, or a list as many rows

@@ -53,20 +53,8 @@ class Begun:
             elif isinstance(value, CellType):
                 value.cell_contents = first
             elif _parts(value) != _parts(first):
-                _put(value, first)
-
-
-def _put(value: Any, first: Any) -> None:
-    """Let one hold this; a dictionary is never empty meanwhile, for functions may read their names in it."""
-    if isinstance(value, dict):
-        for name in value.keys() - first.keys():
-            del value[name]
-        for name, held in first.items():
-            value.pop(name, None)
-            value[name] = held
-    else:
-        value.clear()
-        value.update(first) if isinstance(value, set) else value.extend(first)
+                value.clear()
+                value.update(first) if isinstance(value, dict | set) else value.extend(first)
 
 
 def _parts(value: Any) -> list[Any]:
