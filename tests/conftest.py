@@ -174,6 +174,17 @@ def errors_of_numpy(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
+@pytest.fixture(autouse=True)
+def where_modules_are() -> Iterator[None]:
+    """A worksheet's folder is looked through for modules as long as its test runs: thousands end at a system's limit.
+
+    Processes of a pool are told all of them in one argument, and where no folder has a module all are gone through.
+    """
+    before = list(sys.path)
+    yield
+    sys.path[:] = before
+
+
 def examples(count: int, **others: Any) -> settings:
     """Settings of a test that takes so many examples, not the usual 100, and as many times more in a search."""
     return settings(max_examples=count * settings.default.max_examples // 100, **others)

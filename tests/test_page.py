@@ -203,6 +203,26 @@ def test_a_slider_says_what_it_moves(page):
     until(page, lambda: names.count() == page.get_by_role("slider").count() > 0, "a slider has no name")
 
 
+def test_a_slider_that_is_drawn_late_says_what_it_moves(serve, browser, tmp_path):
+    """Names were given once, a second after the page came to rest: what was drawn later had none."""
+    text = TEMPLATE.read_text(encoding="utf-8").replace("read, summary", "read, slider, summary")
+    moved = '@app.cell\ndef moved(g):\n    slider(0, 1, label="part of F") if g.F <= 1000 else None\n    return\n\n\n'
+    text = text.replace(
+        "@app.cell(hide_code=True)\ndef section_2()", f"{moved}@app.cell(hide_code=True)\ndef section_2()"
+    )
+    assert text.count(moved) == 1
+    sheet = tmp_path / "lever.py"
+    sheet.write_text(text, encoding="utf-8")
+    with new_page(browser) as page:
+        page.goto(serve("run", sheet))
+        page.locator("html[data-measured]").wait_for()
+        expect(page.get_by_role("slider")).to_have_count(0)
+        field = page.locator("td[data-input=F] input")
+        field.fill("1000")
+        field.press("Enter")
+        page.get_by_role("slider", name="part of F").wait_for()
+
+
 def test_slider_moves_the_scheme(page):
     scheme = page.locator("div:has-text('Figure 2.1') > svg, div:has(> svg)").locator("svg[viewBox]").first
     before = scheme.inner_html()

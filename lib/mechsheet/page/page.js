@@ -100,15 +100,24 @@
     });
   }
 
-  // marimo's controls have their labels beside them: a screen reader would say a number alone.
+  // marimo's controls have their labels beside them: a screen reader would say a number alone. They are drawn when they
+  // are, late and more than once.
   function call(host) {
-    const control = host?.shadowRoot?.querySelector("[role=slider], input, select, textarea");
+    const control = host.shadowRoot?.querySelector("[role=slider], input, select, textarea");
     const label = document.createElement("div");
-    label.innerHTML = JSON.parse(host?.dataset.label ?? "null") ?? "";
+    label.innerHTML = JSON.parse(host.dataset.label ?? "null") ?? "";
     if (control && label.textContent && !control.ariaLabel) control.ariaLabel = label.textContent;
   }
-  const callAll = () => document.querySelectorAll("marimo-ui-element > [data-label]").forEach(call);
-  document.addEventListener("focusin", ({ target }) => call(target.closest?.("[data-label]"))); // drawn since
+  let calling;
+  const drawn = new MutationObserver(() => (calling ??= setTimeout(callAll, 100)));
+  function callAll() {
+    calling = undefined;
+    document.querySelectorAll("marimo-ui-element > [data-label]").forEach((host) => {
+      call(host);
+      if (host.shadowRoot) drawn.observe(host.shadowRoot, { childList: true, subtree: true });
+    });
+  }
+  drawn.observe(document.body, { childList: true, subtree: true });
 
   // A server that was started anew takes nothing from a page of before: its numbers would be of other inputs than it shows.
   const refused = ({ responseStatus, name }) => responseStatus === 401 && name.startsWith(`${location.origin}/`);
@@ -130,7 +139,6 @@
 
   function measure() {
     selectByClass();
-    callAll();
     page.classList.add("ms-measure");
     requestAnimationFrame(() =>
       requestAnimationFrame(() => {
