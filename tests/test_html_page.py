@@ -183,7 +183,7 @@ def test_the_page_shows_for_other_inputs_what_the_worksheet_shows(
     How often an equation was evaluated is no property of the document.
     """
     given = SHEETS[name]
-    assert document(name).stat().st_size < 680_000
+    assert document(name).stat().st_size < 650_000
     there = read(opened(offline, document(name, **given)))
     pictures = drawn(name, given)
     changed = opened(offline, document(name), "&".join(f"{k}={quote(v)}" for k, v in given.items()))

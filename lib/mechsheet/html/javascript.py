@@ -11,7 +11,7 @@ import numpy as np
 
 from mechsheet.html import moves
 from mechsheet.html.elementwise import array, literal, places
-from mechsheet.html.scope import Program, Rule, Scope
+from mechsheet.html.scope import Program, Rule, Scope, declared
 from mechsheet.quantities.graph import Guard
 from mechsheet.quantities.lines import Recording
 from mechsheet.quantities.node import Block, Node, bottom_up
@@ -72,7 +72,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
         *(f"{scope.text(holds)}||out.guards.push({json.dumps(why)});" for holds, why in looked.items()),
         "return out}",
     ]
-    return "\n".join(["const evaluate=(()=>{", functions, *lines, "return evaluate})();"])
+    return "\n".join(["const evaluate=(()=>{", functions, *declared(lines), "return evaluate})();"])
 
 
 @cache
@@ -239,7 +239,7 @@ def _iterated(scope: Scope, node: Node) -> str:
         turn = scope.inner(state)
         turn.write([loop.done, *loop.following])
         after = f"[{','.join(map(turn.text, loop.following))}],{turn.text(loop.done)}"
-        body = f"([{','.join(state.values())}])=>{{{''.join(turn.lines)}return[{after}]}}"
+        body = f"([{','.join(state.values())}])=>{{{''.join(declared(turn.lines))}return[{after}]}}"
         most = "null" if loop.most is None else str(loop.most)
         begin = f"[{','.join(map(scope.text, loop.initial))}]"
         scope.solved[loop] = scope.bind(f"repeated({begin},{most},{body})")
@@ -322,7 +322,7 @@ def _residuals(scope: Scope, block: Block, roots: Sequence[Node], unknowns: Sequ
     inner.write(roots)
     results = [inner.text(root) for root in roots]
     arguments = next(iter(names.values())) if block.single else f"([{','.join(names.values())}])"
-    body = f"{{{''.join(inner.lines)}return {results[0] if block.single else '[' + ','.join(results) + ']'}}}"
+    body = f"{{{''.join(declared(inner.lines))}return {results[0] if block.single else '[' + ','.join(results) + ']'}}}"
     if each or not many:
         return f"{arguments}=>{body}"
     all_of = scope.bind(f"{arguments}=>{body}")  # of all problems at once, as if all had these unknowns

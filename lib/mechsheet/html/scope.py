@@ -4,6 +4,7 @@ from bisect import insort
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from heapq import heapify, heappop, heappush
+from itertools import groupby
 from operator import itemgetter
 
 from mechsheet.html.elementwise import ELEMENTWISE, REFUSING, Text, array, literal, names, operation
@@ -12,6 +13,7 @@ from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.quantities.refused import is_pythons
 from mechsheet.worksheet.errors import SheetError
 
+_CONST = "const "
 Size = tuple["int | Node", ...]  # lengths of all axes: numbers, and quantities of those that follow the inputs
 Rule = Callable[["Scope", Node], str]
 _DEEPEST = 20  # operations in one another in an expression
@@ -85,7 +87,7 @@ class Scope:
     def bind(self, text: str) -> str:
         """The name of a new constant."""
         name = self.program.name()
-        self.lines.append(f"const {name}={text};")
+        self.lines.append(f"{_CONST}{name}={text};")
         return name
 
     def text(self, node: Node) -> str:
@@ -249,7 +251,7 @@ class Scope:
             f"{place if node in stored else f'const {place}'}={self._operation(node, key, shape, places).text};"
             for node, place in places.items()
         ]
-        self.lines += [f"const {loop[node]}=field({count});" for node in stored]
+        self.lines += [f"{_CONST}{loop[node]}=field({count});" for node in stored]
         self.lines.append(f"(()=>{{for(let i=0;i<{count};i++){{{''.join(body)}}}}})();")
         self.names |= {node: loop[node] for node in stored}
         return released
@@ -290,6 +292,15 @@ class Scope:
         if all(n == 1 for n in size):
             return literal(node.value.item()) if node.op == "constant" else Text(f"{self.names[node]}[0]")
         return Text(f"{self.text(node)}[i]" if size == key else self._spread_element(node, shape))
+
+
+def declared(lines: Iterable[str]) -> Iterator[str]:
+    """The same lines, where constants that follow one another are declared as one: a page has thousands."""
+    for constants, group in groupby(lines, lambda line: line.startswith(_CONST)):
+        if constants:
+            yield _CONST + ",\n".join(line.removeprefix(_CONST).removesuffix(";") for line in group) + ";"
+        else:
+            yield from group
 
 
 def _along(node: Node) -> tuple[Node, ...]:
