@@ -17,6 +17,7 @@ from mechsheet.mechanics.arguments import (
     vector,
 )
 
+_EPS = 2.0**-52
 _LEAST = 2.0**-960  # the parts of a sum of products above it have their digits
 
 __all__ = [
@@ -146,7 +147,7 @@ def angle_opposite(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     a, b, c = a * unit, b * unit, c * unit
     over = ((b - c) + a) * np.where(c < a, c - (b - a), a - (b - c))
     under = (b + (c + a)) * ((b - a) + c)
-    # where the sides close to one rounding, a factor below zero is that rounding
+    # where the sides close to rounding, a factor below zero is that
     tangent = np.arctan2(np.sqrt(np.maximum(over, 0)), np.sqrt(np.maximum(under, 0)))
     return np.where(closes, 2 * tangent, np.nan)[()]
 
@@ -166,7 +167,7 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     Returns
     -------
     float, shape (...)
-        Area [m^2]; zero where the longest side equals the sum of the others, rounded once; NaN where the sides
+        Area [m^2]; zero where the longest side is the sum of the others, to four roundings; NaN where the sides
         make no triangle.
 
     References
@@ -183,7 +184,7 @@ def triangle_area(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Float:
     x, z = np.maximum(x, r), np.minimum(x, r)
     y, z = np.maximum(y, z), np.minimum(y, z)
     excess = z - (x - y)
-    # where the sides meet to one rounding, an excess below zero is that rounding
+    # where the sides meet to rounding, an excess below zero is that
     excess = np.where(meet(x, y, z), np.maximum(excess, 0), np.nan)
     # two roots: the product of four lengths would leave the range of floats
     area: Float = np.sqrt((x + (y + z)) * excess) * np.sqrt((z + (x - y)) * (x + (y - z))) / 4
@@ -287,8 +288,8 @@ def near_one(length: Float) -> Float:
 
 
 def meet(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
-    """x is at most y + z, where any one of the three may be the rounded sum or difference of the others."""
-    return (x <= y + z) | (x - y <= z) | (x - z <= y)
+    """x is at most y + z, or more by four roundings, as decimal lengths are: 0.8 is more than 0.1 + 0.7."""
+    return (x - y) - z <= 2 * _EPS * x
 
 
 def flat(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:
