@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import written_cells
 from as_script import as_script
+from by_cells import by_cells
 from cells import run
 
 from mechsheet import Used, evaluate, load, sweep
@@ -109,3 +110,33 @@ def test_one_that_is_declared_by_a_unit_is_in_si() -> None:
     assert given.n == run(f"{start}n: int = 1450  # [rpm] speed")["A"]().n == pytest.approx(1450 * RPM, rel=1e-15)
     with pytest.raises(SheetError, match=r"line 5: n = 1450\.5 rpm must be a whole number"):
         run(f"{start}n: int = 1450.5 * rpm  # [rpm] speed")
+
+
+STAGE = """
+import numpy as np
+from mechsheet import ask, export, inputs, read, typeset
+@inputs
+class Stage:
+    z: int  # [-] teeth
+"""
+STAGES = "stages: list[Stage] = [Stage(17), Stage(60)]  # stages"
+OF_COLUMNS = {
+    "g.stages.z**-2": lambda z: z**-2,
+    "np.prod(g.stages.z) ** 8": lambda z: np.prod(z) ** 8,
+    "np.full_like(g.stages.z, 0.5)": lambda z: np.full(len(z), 0.5),
+}
+
+
+@pytest.mark.parametrize("line", OF_COLUMNS)
+@pytest.mark.parametrize("z", [(17, 60), (18, 61), (20, 40, 60)])
+def test_a_column_has_the_same_kind_of_numbers_however_it_is_given(
+    line: str, z: tuple[int, ...], tmp_path: Path
+) -> None:
+    """One that was typed was of numpy's integers, one of the worksheet was not: powers failed or overflowed."""
+    path = tmp_path / "stages.py"
+    path.write_text(written(STAGE, STAGES, f"y = {line}  # [-] result"))
+    expected = OF_COLUMNS[line](np.array(z, float))
+    given = {"stages": " | ".join(map(str, z))}
+    np.testing.assert_allclose(by_cells(path, ["y"], **given)["y"], expected, rtol=1e-14)
+    np.testing.assert_allclose(evaluate(path, ["y"], **given)["y"], expected, rtol=1e-14)
+    np.testing.assert_allclose(sweep(path, ["y"], {"stages": [given["stages"]] * 2})["y"][1], expected, rtol=1e-14)

@@ -126,8 +126,8 @@ class Input:
             yield f"{self.name} = {read}{numbers.suffix(self.unit)}, read with a decimal comma"
 
     def array(self, values: Iterable[Any]) -> NDArray[Any]:
-        """Several values as an array."""
-        return np.array([*values])
+        """Several values as an array, of whole ones too: numpy's own integers are cut, and overflow without a word."""
+        return np.array([*values], float)
 
     def same(self, a: Any, b: Any) -> bool:
         """Whether two values are the same."""
