@@ -102,7 +102,7 @@ COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
 CURVE = [(1, 2.5), (2, 4), (4, 3.5), (5, 6)]
 GIVEN: list[dict[str, Any]] = [
     {}, {"F": [1.5, 2]}, {"F": [1, 2.5, -4, 6, 0.25], "a": 0.4}, {"points": CURVE[:2]},
-    {"points": [*CURVE, (6, 1), (8, 2.5)], "F": [4, 3]}, {"F": list(range(-40, 60))},
+    {"points": [*CURVE, (6, 1), (8, 2.25)], "F": [4, 3]}, {"F": list(range(-40, 60))},
 ]  # fmt: skip
 
 

@@ -377,7 +377,7 @@ ARRAYS = {
     "left": "np.linalg.lstsq(np.stack([x, x**2], 1), np.cos(x))[1]",
     "order": "np.argsort(np.sin(3 * x) * g.a) * 1.0",
     "ordered": "np.array([1.0, 2.0, 3.0])[np.argsort([g.F, g.a, 1.5])]",
-    "equal": "np.argsort([g.F, g.a, g.F, g.a, 1.0]) * 1.0",
+    "equal": "np.argsort([g.F, g.a, g.F, g.a, 1.0], kind='stable') * 1.0",
     "rows": "np.array([[g.F, 1.0], [g.a, 2.0], [1.5, 3.0]])[np.array([g.F, g.a, 1.5]).argsort()][:, 1]",
     "columns": "np.argsort([[g.F, 1.0], [g.a, 2.0], [1.5, 0.5]], axis=0).reshape(-1) * 1.0",
     "cross": "np.cross([g.F, 1.0, g.a], [1.0, 2.0, g.F])",
@@ -397,6 +397,22 @@ def test_functions_of_arrays_are_followed_to_other_inputs(expression: str, tmp_p
     for given in ({}, *OTHER, {"F": 1.125, "a": -0.5}):
         expected = by_cells(sheet.path, ["y"], **given)["y"]
         np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("some", ["g.F, 1.0, 2.0, 3.0, g.a, 5.0, 6.0", "g.F, 1.0, g.a, 1.0, 1.0, 1.0, 0.5"])
+def test_an_order_of_equal_numbers_is_that_of_the_run_or_none(some: str, tmp_path: Path) -> None:
+    """numpy sorts by what the processor has: which of equal numbers is first was another one on a page and in cells."""
+    _, recording = recorded(sheet := own(tmp_path, f"y = g.F * np.argsort([{some}])  # [-] line"))
+    assert not recording.gaps
+    shown = 0
+    for given in ({}, {"F": 2.0}, {"F": 5.0}, {"F": 1.0, "a": 1.0}, {"F": 6.0, "a": 6.0}, {"F": 1.25, "a": 0.25}):
+        found = value_of(recording, "y", given)
+        if np.isnan(found).all():
+            assert recording.guards
+        else:
+            shown += 1
+            np.testing.assert_allclose(found, by_cells(sheet.path, ["y"], **given)["y"], rtol=1e-12)
+    assert shown
 
 
 def test_a_fit_is_as_accurate_as_its_condition_lets_it(tmp_path: Path) -> None:

@@ -16,6 +16,8 @@ from mechsheet.quantities.refused import compared
 from mechsheet.units import UNKNOWN
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
+_KEPT = 3  # equal numbers among so many are in order on every processor; numpy sorts more as each has instructions for
+_EQUAL = "of equal numbers argsort keeps the order with kind='stable' alone"
 _MOST = 8  # unknowns of a fit
 
 
@@ -90,17 +92,27 @@ def is_ranked(x: Quantity) -> bool:
 
 
 def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = None) -> Any:
-    """numpy's argsort, equal numbers in the order that they have: where the rank of each one points."""
+    """numpy's argsort, equal numbers in the order that they have: where the rank of each one points.
+
+    Where numpy may take these in any order, that of the run is known as long as each is less than the same others.
+    """
     compared(x := lift(graph, x))
+    by_machine = not stable and kind not in ("stable", "mergesort")
     graph.chosen.append((copy(x), axis, "argsort"))
     if is_ranked(x):
         number: Any = Quantity(graph, graph.rows(graph.length(x.re, -1)))
     else:
         x, axis, count = to_sort(graph, x, axis)
         if count > SORTED:
-            return np.argsort(x.seen(), axis=-1, kind="stable")
+            return np.argsort(x.seen(), axis=-1, kind=kind, stable=stable)
         number = np.arange(count)
     one, other = x[..., :, None], x[..., None, :]
+    if by_machine and (is_ranked(x) or count > _KEPT):
+        equal: Any = (other == one) & (number != number[:, None])
+        if equal.value.any():
+            (other < one).seen()
+            return moved(lift(graph, np.argsort(x.value, axis=-1, kind=kind)), -1, axis)
+        graph.see((~equal).reduced("all").re, why=_EQUAL)
     beside = number != number[:, None]  # a number only known within bounds may not be seen to be no less than itself
     before: Any = ((other < one) & beside) | ((other == one) & (number < number[:, None]))
     rank = choice(graph, before, 1, 0).reduced("sum", -1)
@@ -176,7 +188,7 @@ def interpolated(
 def _unrolled(x: Quantity, xp: Quantity, fp: Quantity, period: Quantity) -> tuple[Any, Any, Any]:
     """Places within a period, and a table of it that goes on by one row at both ends."""
     at: Any = xp % period
-    order: Any = np.argsort(at)
+    order: Any = np.argsort(at, kind="stable")
     at, fp = at[order], fp[order]
     return (
         x % period,
@@ -234,7 +246,7 @@ def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any
 def ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
     """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
     if is_ranked(x := lift(graph, x)):
-        return x[order(graph, x)]
+        return x[order(graph, x, kind="stable")]
     x, axis, count = to_sort(graph, x, axis)
     if count > SORTED:
         now = np.argsort(x.value, axis=-1, kind="stable")

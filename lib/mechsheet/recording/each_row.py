@@ -303,7 +303,7 @@ class EachRow(Sifted, Listed):
             keys = self._keys(self.parts if key is None else columns(key, self.parts))
             keys = _of_some(self.holds, -keys if reverse else keys, np.argmax(self.holds))
             decide(keys, None, "argsort")
-            order: Any = np.argsort(keys)
+            order: Any = np.argsort(keys, kind="stable")
             return EachRow(self.parts[order], self.holds[order], self.every)
         except (Exception, NotRecorded):
             graph.looked = looked
