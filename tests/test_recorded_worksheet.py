@@ -399,6 +399,17 @@ def test_functions_of_arrays_are_followed_to_other_inputs(expression: str, tmp_p
         np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-9, atol=1e-12)
 
 
+@pytest.mark.parametrize("line", ["np.quantile(x, [0.1, g.a / 2])", "x * np.percentile(x**2, 50 * g.a)"])
+def test_a_quantile_beyond_the_least_and_greatest_is_none(line: str, tmp_path: Path) -> None:
+    """numpy refuses it: pages and cells had a number where the worksheet has none."""
+    _, recording = recorded(sheet := own(tmp_path, f"y = {line}  # [-] line"))
+    for given in ({}, {"a": 2.0}, {"a": 0.0}):
+        expected = by_cells(sheet.path, ["y"], **given)["y"]
+        np.testing.assert_allclose(value_of(recording, "y", given), expected, rtol=1e-12)
+    for given in ({"a": 2.125}, {"a": -0.125}):
+        assert np.isnan(value_of(recording, "y", given)).all()
+
+
 @pytest.mark.parametrize("some", ["g.F, 1.0, 2.0, 3.0, g.a, 5.0, 6.0", "g.F, 1.0, g.a, 1.0, 1.0, 1.0, 0.5"])
 def test_an_order_of_equal_numbers_is_that_of_the_run_or_none(some: str, tmp_path: Path) -> None:
     """numpy sorts by what the processor has: which of equal numbers is first was another one on a page and in cells."""

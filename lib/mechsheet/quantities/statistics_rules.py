@@ -21,6 +21,7 @@ def median(graph: Graph, x: Any, axis: Any = None) -> Any:
 
 def quantile(graph: Graph, x: Any, q: Any, axis: Any = None) -> Any:
     x, q = lift(graph, x), lift(graph, q)
+    graph.see(((q >= 0) & (q <= 1)).reduced("all").re, why="a quantile is of a part from 0 to 1")
     x = ordered(graph, x.reshape(-1)) if axis is None else moved(ordered(graph, x, axis), axis, 0)
     if x.ndim > 1 and q.ndim:
         raise NotRecorded("several of numpy's quantiles along an axis")
