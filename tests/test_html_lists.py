@@ -84,7 +84,8 @@ FOLLOWED = [
     "(y - y.mean()) @ (x - x.mean()) / ((x - x.mean()) @ (x - x.mean()))", "np.hypot(x, y)", "np.median(F)",
     "np.sort(F)", "np.var(F, ddof=1)", "np.vstack([x, y]).T[:, 1]", "np.column_stack([x, y]).sum(axis=1)",
     "np.polyval([1.0, g.a], F)", "F.clip(0, 2)", "np.round(F * g.a)", "F[1:].sum() + F[0]", "np.flip(F)", "max(F)",
-    "sum(F)", "sum(F, g.a)", "np.quantile(F, 0.3)", "np.percentile(y, [10, 90])", "x[np.argsort(y)]", "min(x)",
+    "sum(F)", "sum(F, g.a)", "np.quantile(F, 0.3)", "np.percentile(y, [10, 90])", "x[np.argsort(y, kind='stable')]",
+    "x[np.argsort(-x)]", "min(x)",
     "g.points[0].x * g.points[-1].y", "g.points[1:].y.sum()", "len(g.points) * g.a", "g.points[::-1].x - g.points.x",
     "g.points[x > 1].y.sum()", "g.points[np.argmax(y)].x",
     "sum(v * w for v, w in zip(x, y))", "np.array([v * g.a for v in F])", "sum(p.x * p.y for p in g.points)",
@@ -102,7 +103,7 @@ COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
 CURVE = [(1, 2.5), (2, 4), (4, 3.5), (5, 6)]
 GIVEN: list[dict[str, Any]] = [
     {}, {"F": [1.5, 2]}, {"F": [1, 2.5, -4, 6, 0.25], "a": 0.4}, {"points": CURVE[:2]},
-    {"points": [*CURVE, (6, 1), (8, 2.25)], "F": [4, 3]}, {"F": list(range(-40, 60))},
+    {"points": [*CURVE, (6, 1), (8, 2.5)], "F": [4, 3]}, {"F": list(range(-40, 60))},
 ]  # fmt: skip
 
 

@@ -423,7 +423,19 @@ def test_an_order_of_equal_numbers_is_that_of_the_run_or_none(some: str, tmp_pat
         else:
             shown += 1
             np.testing.assert_allclose(found, by_cells(sheet.path, ["y"], **given)["y"], rtol=1e-12)
-    assert shown
+    assert shown > 1
+
+
+@pytest.mark.parametrize("count", [8, 70])
+@pytest.mark.parametrize("kind", ["None", "'stable'"])
+def test_columns_are_ordered_however_many_numbers_they_have(count: int, kind: str, tmp_path: Path) -> None:
+    """Of more than are compared each with all others, the order of columns stood in rows."""
+    lines = (
+        f"n = np.arange(1.0, {count + 1})\nA = np.sin(n[:, None] * (n + g.F))\nB = np.argsort(A, axis=0, kind={kind})"
+    )
+    _, recording = recorded(sheet := own(tmp_path, f"{lines}\ny = (B * n).reshape(-1)  # [-] line"))
+    assert not recording.gaps
+    np.testing.assert_allclose(value_of(recording, "y", {}), by_cells(sheet.path, ["y"])["y"], rtol=1e-12)
 
 
 def test_a_fit_is_as_accurate_as_its_condition_lets_it(tmp_path: Path) -> None:

@@ -104,9 +104,10 @@
   // are, late and more than once.
   function call(host) {
     const control = host.shadowRoot?.querySelector("[role=slider], input, select, textarea");
+    if (!control || control.ariaLabel) return;
     const label = document.createElement("div");
-    label.innerHTML = JSON.parse(host.dataset.label ?? "null") ?? "";
-    if (control && label.textContent && !control.ariaLabel) control.ariaLabel = label.textContent;
+    label.innerHTML = JSON.parse(host.dataset.label) ?? "";
+    if (label.textContent) control.ariaLabel = label.textContent;
   }
   let calling;
   const drawn = new MutationObserver(() => (calling ??= setTimeout(callAll, 100)));

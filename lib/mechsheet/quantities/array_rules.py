@@ -104,14 +104,14 @@ def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = 
     else:
         x, axis, count = to_sort(graph, x, axis)
         if count > SORTED:
-            return np.argsort(x.seen(), axis=-1, kind=kind, stable=stable)
+            return _now(x.seen(), axis, kind, stable)
         number = np.arange(count)
     one, other = x[..., :, None], x[..., None, :]
     if by_machine and (is_ranked(x) or count > _KEPT):
         equal: Any = (other == one) & (number != number[:, None])
         if equal.value.any():
             (other < one).seen()
-            return moved(lift(graph, np.argsort(x.value, axis=-1, kind=kind)), -1, axis)
+            return _now(x.value, axis, kind, stable)
         graph.see((~equal).reduced("all").re, why=_EQUAL)
     beside = number != number[:, None]  # a number only known within bounds may not be seen to be no less than itself
     before: Any = ((other < one) & beside) | ((other == one) & (number < number[:, None]))
@@ -183,6 +183,11 @@ def interpolated(
     inside = choice(graph, x == xp[-1], fp[-1], inside)  # though others before it may be as great
     below = choice(graph, x < xp[0], fp[0] if left is None else left, inside)
     return choice(graph, x > xp[-1], fp[-1] if right is None else right, below)
+
+
+def _now(x: Any, axis: int, kind: Any, stable: Any) -> Any:
+    """The order of the run's numbers along their last axis, which was this one."""
+    return np.moveaxis(np.argsort(x, axis=-1, kind=kind, stable=stable), -1, axis)
 
 
 def _unrolled(x: Quantity, xp: Quantity, fp: Quantity, period: Quantity) -> tuple[Any, Any, Any]:
