@@ -11,7 +11,7 @@ from own_worksheet import own
 from playwright.sync_api import expect
 
 from mechsheet import evaluate
-from mechsheet.page.design import Design
+from mechsheet.page.design import Design, Designing
 from mechsheet.run import arguments, batch
 from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
@@ -337,7 +337,7 @@ def test_a_design_rests_on_inputs_that_are_gone_while_they_change() -> None:
     """And holds them: others at the same place of the memory are others."""
     inputs = cells.load(GUIDE).inputs
     namespace = {"g": inputs(), "__file__": str(GUIDE)}
-    design = Design(None, namespace, lambda: None)
+    design = Design(Designing(dict, None), namespace, lambda: None)
     g, written = design.rests_on()
     assert design.rests_on()[0] is g is namespace["g"]
     del namespace["g"]

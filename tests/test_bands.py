@@ -618,7 +618,7 @@ def test_a_page_whose_file_is_another_one_by_now_asks_nothing_of_it(tmp_path, mo
     sheet.write_text(text, encoding="utf-8")
     codes = [SimpleNamespace(code=code) for code in load_app(sheet)._cell_manager.codes()]
     monkeypatch.setattr(study.notebook, "running", lambda: (lambda: codes, {}))
-    asked = study.Asked((), lambda: None, lambda of, at: (), lambda told: "", dict)
+    asked = study.Asked(tuple, lambda: None, lambda of, at: (), lambda told: "", dict)
     page = study.Study(asked, {"__file__": str(sheet)}, lambda: None)
     page.refuse_another = refusing_another(page.namespace)
     before = page.state()

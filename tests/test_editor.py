@@ -256,6 +256,46 @@ def test_a_line_is_written_with_the_import_of_what_it_calls(editor):
     assert file.read_bytes() == before
 
 
+def test_what_would_it_take_offers_the_inputs_and_results_there_are_now(editor):
+    """It was gone from the page, with all else that is of inputs, once one brought an import; else it had the former."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, area, done = file.read_bytes(), page.locator(".ms-box textarea"), page.locator(".ms-written")
+    by, so = (page.locator(f"ms-design .ms-{each} select").first for each in ("vary", "need"))
+    matters = page.locator(".ms-study select")
+
+    def offered(field) -> list[str]:
+        return field.locator("option").evaluate_all("all => all.map(each => each.value)")
+
+    page.get_by_text("what would it take").click()
+    by.select_option("F")
+    matters.select_option("M_n")
+    page.locator("#line-M_S > span").last.click()
+    expect(area).to_have_value("M_S = M(phi)  # [N*m] moment over the positions")
+    page.keyboard.press("Control+Enter")
+    area.fill("M_T = 2 * M(phi)  # [N*m] twice the moment")
+    page.locator(".ms-box").get_by_text("840 N·m").wait_for()
+    area.press("Enter")
+    until(page, lambda: "M_T" in offered(so) and "M_T" in offered(matters), "the new result is not offered")
+    assert (by.input_value(), matters.input_value()) == ("F", "M_n"), "what is chosen stays"
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("M_T is as it was")
+    until(page, lambda: "M_T" not in offered(so) + offered(matters), "the former result is offered")
+    page.locator(".ms-inputs tr:has-text('greatest moment') td").first.click()
+    expect(area).to_have_value("M_max: float = 300.0  # [N*m] greatest moment; > 0")
+    page.keyboard.press("Control+Enter")
+    area.fill("F_2: float = 5 * kN  # [kN] another force")
+    page.locator(".ms-box").get_by_text("the setup gets").wait_for()
+    area.press("Enter")
+    expect(done).to_have_text(re.compile("^F_2 is writtenundo"))
+    until(page, lambda: "F_2" in offered(by), "the new input is not offered")
+    expect(page.locator(".ms-study").get_by_role("checkbox")).to_have_count(3)
+    assert "M_n" in offered(so) and "M_n" in offered(matters)
+    page.keyboard.press("Control+z")
+    expect(done).to_have_text("F_2 is as it was")
+    until(page, lambda: offered(by)[:5] == ["", "F", "L", "M_max", "W"], "the former inputs are not offered")
+    assert file.read_bytes() == before
+
+
 def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):
     """It was neither, and nothing said so: the verdict stayed at 2 of 2 checks; nor could it, or a table, be edited."""
     page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())

@@ -41,9 +41,9 @@ class Answer(Protocol):
 
 
 class Designing(NamedTuple):
-    """Printed units of the results by which one may ask, and what answers the options of the command."""
+    """What gives the printed units of the results by which one may ask, and what answers options of the command."""
 
-    results: Mapping[str, str]
+    results: Callable[[], Mapping[str, str]]
     answer: Callable[[Sequence[str], Done], Answer]
 
 
@@ -59,6 +59,11 @@ class Design:
         self.field = mo.ui.text_area(on_change=self.asked)
         self.number, self.told = 0, ""
         self.refuse_another: Callable[[], None] = lambda: None
+        self.offer()
+
+    def offer(self) -> None:
+        """Offer the results that there are now."""
+        self.results = self.designing.results()
 
     @property
     def text(self) -> str:
@@ -66,7 +71,7 @@ class Design:
         if not declared_in(self.namespace):
             return ""
         inputs = list(_offered(inputs_of(self.namespace)))
-        results = [{"name": name, "unit": unit} for name, unit in self.designing.results.items()]
+        results = [{"name": name, "unit": unit} for name, unit in self.results.items()]
         form = element("ms-design", inputs=inputs, results=results)
         told = f'<div class="ms-designed" role="status">{self.told}</div>'
         return f'<div class="ms-screen">{script("design.js")}{form}<div hidden>{self.field.text}</div>{told}</div>'

@@ -3,10 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from html import escape
+from threading import Lock
 from typing import Any, NamedTuple
 
 import marimo as mo
 
+from mechsheet.page import notebook
 from mechsheet.page.design import Design, Designing
 from mechsheet.page.study import Asked, Study
 from mechsheet.worksheet.errors import SheetError
@@ -26,16 +28,25 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
     Above them stands what else the page may be ``asked`` for, of the values in its ``namespace``, and what it would
     take to have others.
     """
-    told = list[str]()
+    told, last, drawing = list[str](), "", Lock()
 
-    def shown() -> mo.Html:
+    def shown() -> str:
         lines = "<br>".join(map(escape, told))
         side = "".join(button.text for button in buttons)
         below = f'<div class="ms-row">{side}</div><div class="ms-note">{lines}</div>'
-        return mo.Html(f"<div>{study.text}{design.text}{below}</div>")
+        return f"<div>{study.text}{design.text}{below}</div>"
 
     def redraw() -> None:
-        mo.output.replace(shown())
+        nonlocal last
+        with drawing:  # of what two threads draw, what is drawn last is what there is then
+            last = shown()
+            mo.output.replace(mo.Html(last))
+
+    def changed() -> None:
+        study.offer()
+        design.offer()
+        if shown() != last:
+            redraw()
 
     def pressed(file: File) -> bytes:
         told[:] = [f"{file.name} is not written"]
@@ -50,4 +61,7 @@ def download(*files: File, asked: Asked, designing: Designing, namespace: Mappin
 
     study, design = Study(asked, namespace, redraw), Design(designing, namespace, redraw)
     buttons = [mo.download(partial(pressed, file), filename=file.name, label=file.label) for file in files]
-    return shown()
+    last = shown()
+    if mo.app_meta().mode == "edit":
+        notebook.follow(changed)
+    return mo.Html(last)

@@ -202,6 +202,43 @@ def compute_what_lost_a_name() -> None:
 _looked_after = WeakSet[Any]()  # kernels of pages
 
 
+def follow(changed: Callable[[], object]) -> None:
+    """Let the calling cell show what it may show anew, in its place, whenever cells of its page have run.
+
+    Its `globals()` tell marimo nothing of what it reads: it may run before the cells that define that, or not at all.
+    Nothing is shown anew of a cell that failed, nor where this version of marimo keeps its cells otherwise.
+    """
+    try:
+        from marimo._runtime.context import get_context  # on use, as all of these: a version may lack it
+        from marimo._runtime.context.types import ExecutionContext  # on use
+        from marimo._runtime.runner.hooks import Priority  # on use
+
+        notebook: Any = get_context()
+        kernel, cell_id = notebook._kernel, notebook.cell_id
+        hooks, graph = kernel._hooks, kernel.graph
+    except (ImportError, AttributeError):
+        return
+    following = kernel in _following
+    _following.setdefault(kernel, {})[cell_id] = changed
+    if following:
+        return
+
+    def ended(_: Any) -> None:
+        for at, show in _following[kernel].items():
+            if at in graph.cells and graph.cells[at].run_result_status == "success":
+                # As while a value of it is set: else its threads may not read the values of its own fields.
+                notebook.execution_context = ExecutionContext(at, True)
+                try:
+                    show()
+                finally:
+                    notebook.execution_context = None
+
+    hooks.add_on_finish(ended, Priority.LATE)
+
+
+_following = WeakKeyDictionary[Any, dict[Any, Callable[[], object]]]()  # by kernels of pages and ids of cells
+
+
 def keep_unfinished(left: Callable[[Cell, object, Mapping[str, Any]], str]) -> Callable[[], None]:
     """Let the calling page of the editor show HTML that is ``left`` of each cell that failed or waits for one that did.
 

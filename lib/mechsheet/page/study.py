@@ -42,11 +42,11 @@ _AT = "least"  # position at which a result is looked at unless another is chose
 class Asked(NamedTuple):
     """What computes that which a page may be asked for.
 
-    These are bands of tables, charts and all else, what a result depends on, the HTML of a proof, which tells how many
-    of how many steps are behind, and the namespace of a run with the document's own inputs.
+    These are names of results, bands of tables, charts and all else, what a result depends on, the HTML of a proof,
+    which tells how many of how many steps are behind, and the namespace of a run with the document's own inputs.
     """
 
-    results: Sequence[str]
+    results: Callable[[], Iterable[str]]
     bands: Callable[[], tuple[RunBands, Sequence[Table], Sequence[Figure]]]
     matters: Callable[[str, str], Sequence[Any]]
     proof: Callable[[Callable[[int, int], object]], str]
@@ -59,13 +59,30 @@ class Study:
     def __init__(self, asked: Asked, namespace: Mapping[str, Any], redraw: Callable[[], object]) -> None:
         self.asked, self.namespace, self.redraw = asked, namespace, redraw
         self.bands = mo.ui.checkbox(label="tolerances", on_change=self.changed)
-        self.result = mo.ui.dropdown(list(asked.results), label="what matters for", on_change=self.changed)
         self.position = mo.ui.text(value=_AT, label="at position", on_change=self.changed)
         self.proof = mo.ui.checkbox(label="every number proved", on_change=self.changed)
         self.own = mo.ui.checkbox(label="what differs from the document", on_change=self.changed)
         self.told, self.looking, self.part = "", False, 0.0
         self.written: object = None
         self.refuse_another: Callable[[], None] = lambda: None
+        self.chosen: str | None = None
+        self.result = self.choice([*asked.results()])
+
+    def offer(self) -> None:
+        """Offer the results that there are now; the chosen one stays."""
+        names = [*dict.fromkeys([*self.asked.results(), *filter(None, [self.chosen])])]
+        if names != [*self.result.options]:
+            self.result = self.choice(names)
+
+    def choice(self, names: Sequence[str]) -> mo.ui.dropdown:
+        """A field for one of some results."""
+        label = "what matters for"
+        return mo.ui.dropdown(names, self.chosen, allow_select_none=True, label=label, on_change=self.choose)
+
+    def choose(self, name: str | None) -> None:
+        """Ask for a result, or for none."""
+        self.chosen = name
+        self.changed(name)
 
     @property
     def text(self) -> str:
@@ -117,11 +134,11 @@ class Study:
     @property
     def asks(self) -> bool:
         """Whether anything is asked for."""
-        return bool(self.own.value or self.bands.value or self.result.value or self.proof.value)
+        return bool(self.own.value or self.bands.value or self.chosen or self.proof.value)
 
     def state(self) -> list[Any]:
         """What an answer rests on; the same objects as long as that is the same."""
-        asked = (self.own.value, self.bands.value, self.result.value, self.position.value, self.proof.value)
+        asked = (self.own.value, self.bands.value, self.chosen, self.position.value, self.proof.value)
         written = state(Path(self.namespace["__file__"]))
         self.written = self.written if self.written == written else written
         return [*asked, self.written, *self.namespace.values()]
@@ -141,8 +158,8 @@ class Study:
                 parts.append(element("ms-bands", told=_told(bands, tables, figures), made=uuid4().hex))
                 told = f"± and the bars in charts are the worst case within {within}. {escape(NOTE)}."
                 parts.append(f'<div class="ms-note">{told}</div>')
-            if self.result.value:
-                of, at = str(self.result.value), self.position.value.strip() or _AT
+            if self.chosen:
+                of, at = self.chosen, self.position.value.strip() or _AT
                 found = _elsewhere(lambda: self.asked.matters(of, at))
                 parts += [f'<div class="ms-matters">{values.html(each)}</div>' for each in found]
         except Exception as error:  # of the library or of the worksheet's own lines: the page goes on without

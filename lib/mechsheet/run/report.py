@@ -109,8 +109,8 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         return banding.bands_of(namespace, sheet(), _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
 
     matter = partial(studied.matters, sheet(), namespace)
-    results = studied.results_of(namespace)
-    asked = study.Asked([*results], bands, matter, proof, partial(_own, worksheet))
+    results = partial(studied.results_of, namespace)  # in the editor they change, too
+    asked = study.Asked(results, bands, matter, proof, partial(_own, worksheet))
     designing = design.Designing(results, partial(studied.designed, sheet(), namespace))
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
     if not html.studies(sheet()):
