@@ -10,9 +10,9 @@ from conftest import WITHIN
 from own_worksheet import own
 from playwright.sync_api import expect
 
-from mechsheet import evaluate
+from mechsheet import evaluate, export
 from mechsheet.page.design import Design, Designing
-from mechsheet.run import arguments, batch
+from mechsheet.run import arguments, batch, studied
 from mechsheet.studies import asked_design, refined
 from mechsheet.worksheet import cells
 from mechsheet.worksheet.errors import SheetError
@@ -342,6 +342,23 @@ def test_a_design_rests_on_inputs_that_are_gone_while_they_change() -> None:
     assert design.rests_on()[0] is g is namespace["g"]
     del namespace["g"]
     assert design.rests_on() == (None, written)
+
+
+def test_results_that_are_offered_are_numbers(tmp_path) -> None:
+    """Functions were, of which nothing can be asked; and rows of several lengths failed there in numpy's words."""
+    lines = "\nz = 1j * g.F  # [-] z\nrows = [[1.0], [1.0, 2.0]]  # [-] rows\ndef f(t):\n    return t  # [-] f"
+    names = {"x": 1.0, "z": 1j, "rows": [[1.0], [1.0, 2.0]], "f": abs}
+    offered = studied.results_of({"__file__": own(tmp_path, lines).path, **names})
+    assert list(offered) == ["x", "z.real", "z.imag", "abs(z)"]
+
+
+@pytest.mark.parametrize("line", ["d = (", "d = 1.0  # [-] one\n    typeset(display=dict(m='mm'))"])
+def test_the_end_of_a_page_is_there_while_a_line_cannot_be_read(line, tmp_path) -> None:
+    """It was not, nor once the line was mended: that it cannot be read was said until the page was opened anew."""
+    path = tmp_path / "own.py"
+    path.write_text(f"import marimo\napp = marimo.App()\n\n@app.cell\ndef one():\n    {line}\n", encoding="utf-8")
+    shown = export("Own", {"__file__": str(path), "d": 1.0}).text
+    assert "Excel workbook" in shown and "Page in one file" in shown
 
 
 def test_the_page_finds_what_it_would_take(serve, page, console_errors):

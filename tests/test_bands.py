@@ -473,7 +473,7 @@ def test_inputs_may_be_called_as_what_a_study_is_asked_is(name, tmp_path, capsys
     batch.answer(sheet.path, replace(given, inputs={**given.inputs, name: "4"}))
     assert re.search(r"^20 .* 16\.0\d+\.\.23\.9\d+ +16\.\.24$", capsys.readouterr().out, re.MULTILINE)
     g = sheet.inputs(F=5.0, **{name: 4.0})
-    _, table_1 = studied.matters(sheet, {"g": g, "__file__": sheet.path}, "s", "0")
+    _, table_1 = studied.matters({"g": g, "__file__": sheet.path}, "s", "0")
     assert dict(zip(table_1.columns[0].values, table_1.columns[4].values, strict=True)) == {"F": 4, name: 5, "a": 0}
 
 
@@ -666,5 +666,5 @@ def test_the_page_shows_bands_and_what_matters_once_it_is_asked(serve, page, con
 def test_what_matters_is_known_of_a_worksheet_with_lists(tmp_path):
     sheet = cells.load(EXAMPLES / "bolted_joint.py")
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    tornado, table = studied.matters(sheet, names, "p_K", "least")
+    tornado, table = studied.matters(names, "p_K", "least")
     assert len(table.columns[0].values) > 5 and tornado

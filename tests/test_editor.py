@@ -257,7 +257,7 @@ def test_a_line_is_written_with_the_import_of_what_it_calls(editor):
 
 
 def test_what_would_it_take_offers_the_inputs_and_results_there_are_now(editor):
-    """It was gone from the page, with all else that is of inputs, once one brought an import; else it had the former."""
+    """It was gone, with all else that is of inputs, once one brought an import; else it had the former ones."""
     page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
     before, area, done = file.read_bytes(), page.locator(".ms-box textarea"), page.locator(".ms-written")
     by, so = (page.locator(f"ms-design .ms-{each} select").first for each in ("vary", "need"))

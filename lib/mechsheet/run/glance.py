@@ -17,6 +17,7 @@ from typing import Any
 
 from mechsheet.document import chart, chart_svg, drawing_svg, parts
 from mechsheet.document.shortened import thinned
+from mechsheet.run import studied
 from mechsheet.run.ending import watch
 from mechsheet.run.report import write
 from mechsheet.worksheet import inputs, mistakes
@@ -67,16 +68,6 @@ def _place(worksheet: Path) -> Path:
     return folder / "mechsheet" / f"{hashlib.sha256(str(worksheet).encode()).hexdigest()}.json"
 
 
-def searches(worksheet: Path) -> bool:
-    """Whether a worksheet searches or measures over many runs; not known, so no, of one that cannot be read."""
-    from mechsheet.html.write import studies  # on use: the start page needs it not
-
-    try:
-        return bool(studies(load(worksheet)))
-    except Exception:  # of the worksheet's own lines: its run tells it
-        return False
-
-
 def computed(worksheet: Path) -> Glance:
     """A run of a worksheet, at a glance."""
     of, when = digest(worksheet), time.strftime("%Y-%m-%d %H:%M")
@@ -121,7 +112,7 @@ def main() -> None:
     Thread(target=_end_with_who_asked, daemon=True).start()
     worksheet = Path(sys.argv[1]).resolve()
     watch(str(worksheet))
-    if "--asked" not in sys.argv and searches(worksheet):
+    if "--asked" not in sys.argv and studied.searches(worksheet):
         sys.exit(LONG)
     if hasattr(os, "nice"):  # where there is none, it runs beside the pages as they do
         os.nice(_BACKGROUND)

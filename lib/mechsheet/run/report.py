@@ -81,7 +81,7 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
     from mechsheet.html import write as html  # on use: a worksheet called as a function needs no page
     from mechsheet.page import design, of_file, study  # on use: as above
     from mechsheet.page.download import File, download  # on use: as above
-    from mechsheet.run import banding, studied  # on use: only a page and tolerances need it
+    from mechsheet.run import banding, studied  # on use: only a page and tolerances need them
 
     def book() -> tuple[bytes, list[str]]:
         _refuse_part(namespace, worksheet)
@@ -108,12 +108,12 @@ def export(title: str, namespace: Mapping[str, Any]) -> Any:
         shown = parts.values(namespace)
         return banding.bands_of(namespace, sheet(), _of(Check, shown)), _of(Table, shown), _of(Figure, shown)
 
-    matter = partial(studied.matters, sheet(), namespace)
+    matter = partial(studied.matters, namespace)
     results = partial(studied.results_of, namespace)  # in the editor they change, too
     asked = study.Asked(results, bands, matter, proof, partial(_own, worksheet))
-    designing = design.Designing(results, partial(studied.designed, sheet(), namespace))
+    designing = design.Designing(results, partial(studied.designed, namespace))
     files = [File(f"{worksheet.stem}.xlsx", "Excel workbook", book)]
-    if not html.studies(sheet()):
+    if not studied.searches(worksheet):
         files.append(File(f"{worksheet.stem}.html", "Page in one file", page))
     return download(*files, asked=asked, designing=designing, namespace=namespace)
 

@@ -2,30 +2,56 @@
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mechsheet.run.progress import remaining
 from mechsheet.worksheet import numbers, shown
-from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import inputs_of
 
 
+def searches(worksheet: Path) -> bool:
+    """Whether a worksheet searches or measures over many runs; not known, so no, of one that cannot be read."""
+    from mechsheet.html.write import studies  # on use: the start page needs it not
+
+    try:
+        return bool(studies(load(worksheet)))
+    except Exception:  # of the worksheet's own lines: its run tells it
+        return False
+
+
 def results_of(namespace: Mapping[str, Any]) -> dict[str, str]:
-    """Results of a run that are real numbers, or the parts of complex ones, by which one may ask, and their units."""
+    """Results of a run that are real numbers, or the parts of complex ones, by which one may ask, and their units.
+
+    There is none where a line cannot be read, which its own cell tells.
+    """
     found = dict[str, str]()
-    for name, line in registry(namespace).items():
-        kind = "" if line.arguments else np.asarray(namespace.get(name)).dtype.kind
-        parts = [f"{name}.real", f"{name}.imag", f"abs({name})"] if kind == "c" else [name] if kind in "if" else []
+    try:
+        lines = dict(registry(namespace))
+    except (SheetError, SyntaxError):
+        return found
+    for name, line in lines.items():
+        kind = "" if line.arguments else _kind(namespace.get(name))
+        parts = {"i": [name], "f": [name], "c": [f"{name}.real", f"{name}.imag", f"abs({name})"]}.get(kind, [])
         found |= dict.fromkeys(parts, "" if line.unit == "-" else numbers.in_text(line.unit))
     return found
 
 
-def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
+def _kind(value: object) -> str:
+    """What numbers of numpy a value is; "" of rows of several lengths, which are none."""
+    try:
+        return np.asarray(value).dtype.kind
+    except ValueError:
+        return ""
+
+
+def matters(namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
     """Tornado and table of the elasticities of a result by all inputs, as they are in a run, at a position.
 
     Raises SheetError where there is no such position, or what `mechsheet.sensitivity` raises.
@@ -33,14 +59,12 @@ def matters(sheet: Worksheet, namespace: Mapping[str, Any], name: str, position:
     at: Any = int(position) if position.isdecimal() else position
     if not isinstance(at, int) and at not in ("least", "greatest"):
         raise SheetError(f"position {as_given(position)} must be least, greatest or a number from 0")
-    found = shown.study("sensitivity")(sheet.path, [name], g=inputs_of(namespace))
+    found = shown.study("sensitivity")(namespace["__file__"], [name], g=inputs_of(namespace))
     title = f"What matters for {name}"
     return found.tornado("", title, name, at), found.table("", title, name, at)
 
 
-def designed(
-    sheet: Worksheet, namespace: Mapping[str, Any], options: Sequence[str], done: Callable[[float, str], object]
-) -> Any:
+def designed(namespace: Mapping[str, Any], options: Sequence[str], done: Callable[[float, str], object]) -> Any:
     """What it would take, asked by options of the command, with the other inputs as they are in a run.
 
     ``done`` is called with the part of a search that is behind it and the time that is left, in words. Raises
@@ -52,4 +76,4 @@ def designed(
     def generation(count: int, total: int) -> None:
         done(count / total, remaining(time.monotonic() - begun, count, total))
 
-    return shown.study("asked_design")(sheet.path, options, given, generation)
+    return shown.study("asked_design")(namespace["__file__"], options, given, generation)
