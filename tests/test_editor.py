@@ -19,7 +19,7 @@ from mechsheet import __main__ as launcher
 from mechsheet import find
 from mechsheet.document.left_out import left_out, unseen
 from mechsheet.page import editor as told_by
-from mechsheet.page import in_place, notebook
+from mechsheet.page import in_place, notebook, unfinished
 from mechsheet.worksheet import source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.line_shown import given
@@ -294,6 +294,16 @@ def test_what_would_it_take_offers_the_inputs_and_results_there_are_now(editor):
     expect(done).to_have_text("F_2 is as it was")
     until(page, lambda: offered(by)[:5] == ["", "F", "L", "M_max", "W"], "the former inputs are not offered")
     assert file.read_bytes() == before
+
+
+def test_the_lines_of_a_cell_stay_where_one_of_them_has_no_number():
+    """They were gone, as was all else that the page shows once cells have run."""
+    code = "a = 2.0  # [m] one\nrows = [[1.0], [1.0, 2.0]]  # [m] rows of two lengths\ntypeset()"
+    cell = notebook.Cell("c", code, "c", frozenset(), frozenset(), "exception", None, False)
+    with pytest.raises(NameError) as failed:
+        exec(compile(code, "c", "exec"), {})
+    left = unfinished.left(cell, failed.value, {"a": 2.0, "rows": [[1.0], [1.0, 2.0]]})
+    assert "line-a" in left and "rows of two lengths" in left
 
 
 def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):

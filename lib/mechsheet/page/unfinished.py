@@ -13,7 +13,7 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_edit import declares
 from mechsheet.worksheet.lines import Formula, formulas
-from mechsheet.worksheet.typeset import Numbers, Typeset
+from mechsheet.worksheet.typeset import Numbers, Typeset, no_number
 
 
 def left(cell: notebook.Cell, error: object, namespace: Mapping[str, Any]) -> str:
@@ -33,11 +33,17 @@ def left(cell: notebook.Cell, error: object, namespace: Mapping[str, Any]) -> st
     for node in own.body:
         last = node.end_lineno or node.lineno
         lines = tuple(row for row in rows if node.lineno <= row.expression.lineno <= last)
-        given = tuple(namespace.get(row.name) if isinstance(row, Formula) and last < end else None for row in lines)
+        given = tuple(_number(row, namespace) if isinstance(row, Formula) and last < end else None for row in lines)
         part = Typeset(lines, given, (), numbers) if lines else _as_typed(cell.code, node)
         text = values.html(Typeset((), (), (part,))) if part else ""
         found += text if last < end else f'<div class="ms-waits">{text}</div>' if text else ""
     return found
+
+
+def _number(row: Formula, namespace: Mapping[str, Any]) -> Any:
+    """The value of a line; none of one that has no number, which may be what failed."""
+    value = namespace.get(row.name)
+    return None if no_number(row, value) else value
 
 
 def _end(error: object, filename: str) -> int:

@@ -14,6 +14,7 @@ from mechsheet.worksheet.errors import SheetError, as_given
 from mechsheet.worksheet.inputs import Used
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import inputs_of
+from mechsheet.worksheet.typeset import no_number
 
 
 def searches(worksheet: Path) -> bool:
@@ -37,18 +38,11 @@ def results_of(namespace: Mapping[str, Any]) -> dict[str, str]:
     except (SheetError, SyntaxError):
         return found
     for name, line in lines.items():
-        kind = "" if line.arguments else _kind(namespace.get(name))
+        value = namespace.get(name)
+        kind = "" if line.arguments or no_number(line, value) else np.asarray(value).dtype.kind
         parts = {"i": [name], "f": [name], "c": [f"{name}.real", f"{name}.imag", f"abs({name})"]}.get(kind, [])
         found |= dict.fromkeys(parts, "" if line.unit == "-" else numbers.in_text(line.unit))
     return found
-
-
-def _kind(value: object) -> str:
-    """What numbers of numpy a value is; "" of rows of several lengths, which are none."""
-    try:
-        return np.asarray(value).dtype.kind
-    except ValueError:
-        return ""
 
 
 def matters(namespace: Mapping[str, Any], name: str, position: str) -> tuple[Any, Any]:
