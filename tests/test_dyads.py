@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from moving import exact_rows, floats, path, turning
 from random_groups import FAMILIES, numbers, triangles, vectors
@@ -25,7 +25,14 @@ from mechsheet.mechanics.planar import (
     link_velocity,
     triangle_area,
 )
-from mechsheet.mechanics.rpr import rpr, rpr_acceleration, rpr_condition, rpr_transmission_angle, rpr_velocity
+from mechsheet.mechanics.rpr import (
+    rpr,
+    rpr_acceleration,
+    rpr_condition,
+    rpr_reach,
+    rpr_transmission_angle,
+    rpr_velocity,
+)
 from mechsheet.mechanics.rrp import (
     rrp,
     rrp_acceleration,
@@ -43,6 +50,7 @@ from mechsheet.mechanics.rrr import (
     rrr_transmission_angle,
     rrr_velocity,
 )
+from mechsheet.quantities.elementary import in_steps
 
 families = pytest.mark.parametrize("family", FAMILIES)
 every = pytest.mark.parametrize
@@ -263,7 +271,7 @@ def test_rrr_closes_at_both_ends_of_its_reach_and_nowhere_outside(A: complex, B:
     low, high = rrr_reach(A, B, r)
     assert np.all(np.isfinite(rrr(A, B, r, [low, high], s)) == (A != B))
     assert np.all(np.isfinite(rrr(B, A, [low, high], r, s)) == (A != B))
-    beyond = 6 * np.spacing(high)  # four roundings of the longest side, and those of the ends
+    beyond = 6 * np.spacing(high + abs(A) + abs(B))  # four roundings of each, and those of the ends
     assert np.isnan(rrr(A, B, r, high + beyond, s))
     assert low <= beyond or np.isnan(rrr(A, B, r, low - beyond, s))
 
@@ -281,11 +289,47 @@ def test_links_of_whole_millimetres_in_one_line_close() -> None:
         assert np.all(triangle_area(a, b, c) <= 8e-8 * L**2)
 
 
+@every("turn", [90, 0.001])  # degrees: level and upright, or anyhow
+@every("far", [0, 1, 30, 1000])
+@every("how", [lambda f: f, in_steps])
+def test_groups_in_a_dead_centre_close_wherever_their_pins_are(how, far, turn) -> None:
+    """What is taken from coordinates has their rounding: metres from the origin, up to half of these had no position.
+
+    Neither had they on pages and in cells, where they are computed in steps.
+    """
+    rng, count = np.random.default_rng(4), 10_000
+    r_A, r_B, x, y = np.round(rng.uniform([[0.05], [0.05], [-1], [-1]], 1, (4, count)), 3)
+    A = far * (1 - 2j) + x + 1j * y
+    u = np.exp(1j * np.deg2rad(turn * rng.integers(0, 360_000, count)))
+    size = 4 * np.sqrt(EPS * (np.abs(A) + 2))
+    for L in (r_A + r_B, np.where(r_A == r_B, 2 * r_A, r_A - r_B)):
+        C = how(rrr)(A, A + L * u, r_A, r_B, 1)
+        assert np.all(np.abs(L) * np.abs(C - A - r_A * u) < size)
+    C = how(rrp)(A, A + r_B * u - r_A * 1j * u, u, r_A, -1)
+    assert np.all(np.abs(C - A + r_A * 1j * u) < size)
+    for e in (r_A, -r_A):
+        along, s = how(rpr)(A + r_A * u, A, 1, e)
+        assert np.all(np.abs(along * 1j * np.sign(e) - u) < size / r_A)
+        assert np.all(s < size)
+
+
 @given(points, points, points.filter(bool), coordinates, st.sampled_from([-1, 1]))
 def test_rrp_closes_from_the_shortest_link_on(A: complex, B: complex, u: complex, e: float, s: int) -> None:
     low, _ = rrp_reach(A, B, u, e)
     assert np.isfinite(rrp(A, B, u, low, s, e))
-    assert np.isnan(rrp(A, B, u, np.nextafter(low, 0), s, e)) or low == 0
+    beyond = 6 * np.spacing(low + abs(A) + abs(B) + abs(e))
+    assert low <= beyond or np.isnan(rrp(A, B, u, low - beyond, s, e))
+
+
+@given(points, points, st.sampled_from([-1, 1]))
+def test_rpr_closes_to_the_greatest_offset(A: complex, B: complex, s: int) -> None:
+    assume(A != B)
+    _, high = rpr_reach(A, B)
+    for offset in (high, -high):
+        u, along = rpr(A, B, s, offset)
+        assert abs(along) <= 2e-8 * high
+        assert abs(abs(u) - 1) <= 8 * EPS
+    assert np.isnan(rpr(A, B, s, high + 6 * np.spacing(high + abs(A) + abs(B))).s)
 
 
 @given(st.lists(st.tuples(points, points, lengths, lengths), min_size=1, max_size=8), st.sampled_from([-1, 1]))

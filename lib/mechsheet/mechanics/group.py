@@ -67,6 +67,15 @@ class Reach(NamedTuple):
     greatest: Float  # [m]
 
 
+def within(x: Float, most: Float, *of: Complex | Float) -> Float:
+    """x; ``most`` in size where it is more by four roundings of that and of what x is made of, which are no more."""
+    more = np.abs(x) > most
+    if not np.count_nonzero(more):
+        return x
+    rounding = ROUNDINGS / 2 * (most + sum(map(np.abs, of)))
+    return np.where(more & (np.abs(x) - most <= rounding), np.copysign(most, x), x)
+
+
 def endless(known: Complex | Float) -> Reach:
     """Every length, where what does not depend on it is ``known``; NaN where that is."""
     end = np.where(np.isnan(known), np.nan, np.inf)[()]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, direction, elementwise, field, parameter, scalar_field, sign
-from mechsheet.mechanics.group import Reach, condition, determinant, slid
+from mechsheet.mechanics.group import Reach, condition, determinant, slid, within
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, dot
 
@@ -65,7 +65,8 @@ def rpr(A: ArrayLike, B: ArrayLike, branch: ArrayLike, offset: ArrayLike = 0.0) 
     Returns
     -------
     RPRPosition
-        u and s [m]; NaN where A is nearer to B than the offset; no direction where A = B.
+        u and s [m]; NaN where A is nearer to B than the offset, but for four roundings of |A|, |B| and their distance;
+        no direction where A = B.
 
     Raises
     ------
@@ -77,8 +78,10 @@ def rpr(A: ArrayLike, B: ArrayLike, branch: ArrayLike, offset: ArrayLike = 0.0) 
     >>> rpr(2j, 0, 1)
     RPRPosition(u=np.complex128(1j), s=np.float64(2.0))
     """
-    d = field(A, "A") - field(B, "B")
-    L, e = np.abs(d), parameter(offset, "offset", "m")
+    A, B = field(A, "A"), field(B, "B")
+    d = A - B
+    L = np.abs(d)
+    e = within(parameter(offset, "offset", "m"), L, A, B)
     s = sign(branch) * np.sqrt((L - e) * (L + e))
     return RPRPosition(d / (s + 1j * e), s)
 

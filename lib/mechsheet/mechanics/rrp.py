@@ -20,7 +20,7 @@ from mechsheet.mechanics.arguments import (
     sign,
     unit,
 )
-from mechsheet.mechanics.group import Reach, carried, condition, determinant, endless, moved, slid
+from mechsheet.mechanics.group import Reach, carried, condition, determinant, endless, moved, slid, within
 from mechsheet.mechanics.load import Load, lever, resultant
 from mechsheet.mechanics.planar import angle_between, cross, dot, product
 
@@ -87,7 +87,7 @@ def rrp(
     Returns
     -------
     complex, shape (...)
-        C [m]; NaN where the link does not reach the guide (`rrp_reach`).
+        C [m]; NaN where the link does not reach the guide (`rrp_reach`), but for four roundings of |A|, |B|, e and r_A.
 
     Raises
     ------
@@ -101,8 +101,9 @@ def rrp(
     array([-4. +0.j, nan+nanj])
     """
     A, u = field(A, "A"), unit(u, "u")
-    h = cross(u, A - field(B, "B")) - parameter(offset, "offset", "m")
+    B, e = field(B, "B"), parameter(offset, "offset", "m")
     r_A = length(r_A, "length r_A")
+    h = within(cross(u, A - B) - e, r_A, A, B, e)
     ahead = np.sqrt((r_A - np.abs(h)) * (r_A + np.abs(h)))
     return A + product(sign(branch) * ahead, -h, u)
 

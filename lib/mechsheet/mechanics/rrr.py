@@ -57,8 +57,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     .. math:: C = A + (a + i\,h)\,(B - A)/L^2, \quad a = (L^2 + r_A^2 - r_B^2)/2, \quad h = 2 s S, \quad L = |B - A|
 
     with S the area of the triangle of the sides L, r_A, r_B; zero where one of them is the rounded sum or difference of
-    the others, the end of reach, and beyond it by four roundings of the longest. The difference of squares is
-    factored. The sum starts from the pin of the shorter link, with the same formula, so that the length of each link
+    the others, the end of reach, and beyond it by four roundings of the longest, |A| and |B|. The difference of squares
+    is factored. The sum starts from the pin of the shorter link, with the same formula, so that the length of each link
     keeps its digits.
 
     Parameters
@@ -99,7 +99,8 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     excess = z - (x - y)
     near = excess <= 2 * _EPS * x
     if np.count_nonzero(near):  # rounding alone parts the links from the line of A and B
-        excess = np.where(flat(x, y, z), 0.0, np.where(meet(x, y, z), np.maximum(excess, 0), np.nan))
+        close = meet(x, y, z, np.abs(A) + np.abs(B))
+        excess = np.where(flat(x, y, z), 0.0, np.where(close, np.maximum(excess, 0), np.nan))
     # over L: no square of a length leaves the range of floats
     square = ((x + (y + z)) / L) * (excess / L) * ((z + (x - y)) / L) * ((x + (y - z)) / L)
     a = (shorter / L) ** 2 + ((longer - other) / L) * ((longer + other) / L)

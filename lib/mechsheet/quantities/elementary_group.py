@@ -11,17 +11,18 @@ from mechsheet.mechanics.load import Load
 from mechsheet.quantities.elementary_planar import Quantity, cross, step
 
 
-def _none(x: Quantity) -> bool:
+def none(x: Quantity) -> bool:
+    """Whether there is nothing of it, as where an argument is left out."""
     return isinstance(x, int | float) and x == 0
 
 
 def moved(v: Quantity, a: Quantity, dr: Quantity) -> Quantity:
-    return v if _none(dr) else v + a * (dr / np.abs(a))
+    return v if none(dr) else v + a * (dr / np.abs(a))
 
 
 def carried(a: Quantity, omega: Quantity, dr: Quantity, ddr: Quantity) -> Quantity:
     rigid = -(omega**2) * a
-    return rigid if _none(dr) and _none(ddr) else rigid + a * ((ddr + 2j * omega * dr) / np.abs(a))
+    return rigid if none(dr) and none(ddr) else rigid + a * ((ddr + 2j * omega * dr) / np.abs(a))
 
 
 def determinant(D: Quantity, size: Quantity, unit: str) -> Quantity:

@@ -7,15 +7,20 @@ import numpy as np
 from mechsheet.mechanics.group import Reach
 from mechsheet.mechanics.load import Load
 from mechsheet.mechanics.rpr import RPRAcceleration, RPRPosition, RPRReactions, RPRVelocity
-from mechsheet.quantities.elementary_group import determinant, lever, loaded_end
+from mechsheet.quantities.elementary_group import determinant, lever, loaded_end, none
 from mechsheet.quantities.elementary_planar import Quantity, angle_between, cross, dot, settled, step, unit, whole
 
 
 def rpr(A: Quantity, B: Quantity, branch: Quantity, offset: Quantity = 0) -> RPRPosition:
     d = A - B
     L = np.abs(d)
-    s = step("s", "m", "distance along the slide", branch * np.sqrt((L - offset) * (L + offset)))
-    return RPRPosition(d / (s + 1j * offset), s)
+    if none(offset):
+        s = step("s", "m", "distance along the slide", branch * L)
+        return RPRPosition(d / s, s)
+    e = step("e", "m", "offset, no more than the distance of the pins", np.clip(offset, -L, L))
+    excess = settled(L - np.abs(offset), (L + np.abs(A) + np.abs(B)) / 2)
+    s = step("s", "m", "distance along the slide", branch * np.sqrt(excess * (L + np.abs(offset))))
+    return RPRPosition(d / (s + 1j * e), s)
 
 
 def rpr_reach(A: Quantity, B: Quantity) -> Reach:
