@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import pkgutil
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
@@ -376,6 +377,11 @@ def dead_centres() -> Iterator[tuple[Callable[..., Any], tuple[Any, ...]]]:
     yield rpr.rpr_reactions, (A, square, u, *on)
     yield rpr.rpr_condition, (A, square, u)
     yield rpr.rpr_determinant, (A, square, u)
+    bodies, (_, *reactions) = crank_mechanism("rocker")
+    crank, rod = numbers(0.3, 1), numbers(0.5, 2)
+    in_line = u * crank, u * (crank + rod) * (1 + 5e-16j)  # and not to the last bit, which numpy refuses
+    reactions[1:3] = [replace(p, P=x) for p, x in zip(reactions[1:3], in_line, strict=True)]
+    yield equilibrium.solve_reactions, (bodies, [*reactions, equilibrium.DriveMoment(3, 0.0)])
     guides = u * r, u * t
     yield prp.prp, (A, A + v, *guides)
     yield prp.prp_velocity, (A, A + v, A, *guides, v)

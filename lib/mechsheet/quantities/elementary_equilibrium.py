@@ -6,6 +6,7 @@ from itertools import chain
 import numpy as np
 
 from mechsheet.mechanics.equilibrium import DriveMoment, Reaction
+from mechsheet.mechanics.group import ROUNDINGS
 from mechsheet.mechanics.load import Load
 from mechsheet.quantities.elementary_planar import Quantity, cross, step
 
@@ -22,7 +23,7 @@ def solve_reactions(loads: Sequence[Sequence[Load]], reactions: Sequence[Reactio
         way = coefficients.pop(j)
         known.append((j, ({k: way * c for k, c in coefficients.items()}, way * right)))
         equations = [_put(equation, *known[-1]) for equation in equations]
-    found = _solved(equations)
+    found = _solved(equations, _far(reactions))
     for j, (coefficients, right) in reversed(known):
         for k, c in coefficients.items():
             right = right - c * found[k]
@@ -79,8 +80,17 @@ def _put(equation: Equation, j: int, value: Equation) -> Equation:
     return coefficients, step("b", "", "right side of the one system", right - of * value[1])
 
 
-def _solved(equations: Sequence[Equation]) -> dict[int, Quantity]:
-    """The unknowns of the equations that are left."""
+def _far(reactions: Sequence[Reaction]) -> Quantity:
+    """The part that rounding of the pairs has of their distances, in roundings."""
+    pairs: list[Quantity] = list({id(r.P): r.P for r in reactions if not isinstance(r, DriveMoment)}.values())
+    if len(pairs) < 2:
+        return 1
+    far = 1 + sum(np.abs(P) for P in pairs) / sum(np.abs(P - pairs[0]) for P in pairs[1:])
+    return step("far", "-", "1 and how far the pairs are from the origin, in distances from one another", far)
+
+
+def _solved(equations: Sequence[Equation], far: Quantity) -> dict[int, Quantity]:
+    """The unknowns of the equations that are left; none where rounding of the pairs can leave bodies that move."""
     unknowns = sorted(set(chain.from_iterable(coefficients for coefficients, _ in equations)))
     if not unknowns:
         return {}
@@ -89,4 +99,6 @@ def _solved(equations: Sequence[Equation]) -> dict[int, Quantity]:
     count = len(unknowns) + 1
     whole = np.stack([np.stack(cells[n : n + count], axis=-1) for n in range(0, len(cells), count)], axis=-2)
     found = np.linalg.solve(whole[..., :-1], whole[..., -1:])[..., 0]
-    return {j: found[..., n] for n, j in enumerate(unknowns)}
+    size = np.prod(np.abs(whole[..., :-1]).sum(axis=-1), axis=-1)
+    stands = np.abs(np.linalg.det(whole[..., :-1])) > ROUNDINGS * far * size
+    return {j: np.where(stands, found[..., n], np.nan) for n, j in enumerate(unknowns)}
