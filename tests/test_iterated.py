@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from own_worksheet import own
 
 from mechsheet.accuracy.arithmetic import mp, mpf
 from mechsheet.quantities.lines import Recording
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.readers import balls
 from mechsheet.readers.bends import bends
 from mechsheet.readers.gradients import gradient
 from mechsheet.readers.numbers import numbers
@@ -88,3 +91,33 @@ def test_an_end_that_rounding_decides_is_not_proved(tmp_path: Path) -> None:
     _, _, proof = run(tmp_path, lines)
     (claim,) = (column for column in proof.columns if column.name == "z")
     assert claim.least == 0 and "line " in claim.why and "a loop" in claim.why
+
+
+@pytest.mark.parametrize("reader", ["balls", "slopes", "bends"])
+def test_what_the_turns_of_several_loops_rest_on_is_gone_through_once(
+    reader: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once for each loop that ends by convergence it took minutes: a proof, and what tolerances come to."""
+    lines = (
+        "y = 1.0\nfor k in range(4):\n    x = y\n    while abs(x * x - g.F * y) > 1e-9:\n"
+        "        x = (x + g.F * y / x) / 2\n    y = x + g.a\nz = 2 * y  # [-] root"
+    )
+    _, recording, _ = run(tmp_path, lines)
+    node, by = recording.values["z"].whole().re, [recording.inputs["F"], recording.inputs["a"]]
+    assert sum(each.op == "iterated" for each in bottom_up([node], ())) > 3
+    passes = {
+        "balls": [lambda: balls.unfollowed([node])],
+        "slopes": [lambda: unfollowed([node], by), lambda: slopes([node], by)],
+        "bends": [lambda: bends([node], by, np.eye(2))],
+    }
+    for again in passes[reader]:
+        gone = list[Node]()
+
+        def counted(roots: Iterable[Node], known: Container[Node], gone: list[Node] = gone) -> Iterator[Node]:
+            for each in bottom_up(roots, known):
+                gone.append(each)
+                yield each
+
+        monkeypatch.setattr(f"mechsheet.readers.{reader}.bottom_up", counted)
+        again()
+        assert len(gone) == len(set(gone)) > 30

@@ -110,12 +110,20 @@ class Balls:
 
 def unfollowed(wanted: Iterable[Node]) -> set[Node]:
     """Nodes of which no precision tells anything, with all that rests on them."""
-    lost = set[Node]()
-    for node in bottom_up(wanted, ()):
-        own = node.op == "exported" or (node.op == "found" and not has_equation(node))
-        own |= node.op == "iterated" and not unfollowed(node.args[2:]).isdisjoint(node.args[2:])
-        if own or not lost.isdisjoint(node.operands):
-            lost.add(node)
+    lost, seen = set[Node](), set[Node]()
+
+    def look(nodes: Iterable[Node]) -> None:
+        for node in bottom_up(nodes, seen):
+            seen.add(node)  # what the turns of several loops rest on is looked at once
+            below = node.operands
+            if node.op == "iterated":
+                look(node.args[2:])
+                below = (*below, *node.args[2:])
+            own = node.op == "exported" or (node.op == "found" and not has_equation(node))
+            if own or not lost.isdisjoint(below):
+                lost.add(node)
+
+    look(wanted)
     return lost
 
 

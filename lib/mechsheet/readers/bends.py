@@ -74,17 +74,21 @@ class _Second:
     def through(self, wanted: Iterable[Node], moving: Moving, given: Mapping[Node, Values]) -> dict[Node, Values]:
         """Of all that moves under some quantities and is no condition, where some are given."""
         bent = dict(given)
-        for node in bottom_up(wanted, bent):
-            if node in moving and moving[node].ahead.dtype != bool:
-                bent[node] = self._of(node, moving, bent)
+        self._further(wanted, moving, bent, {*given})
         return bent
 
-    def _of(self, node: Node, moving: Moving, bent: Mapping[Node, Values]) -> Values:
+    def _further(self, wanted: Iterable[Node], moving: Moving, bent: dict[Node, Values], done: set[Node]) -> None:
+        for node in bottom_up(wanted, done):
+            done.add(node)
+            if node in moving and moving[node].ahead.dtype != bool:
+                bent[node] = self._of(node, moving, bent, done)
+
+    def _of(self, node: Node, moving: Moving, bent: dict[Node, Values], done: set[Node]) -> Values:
         if node.op == "found":
             return self._found(node, moving, bent)
         if node.op == "iterated":
-            turns = self.forward.through(node.args[2:], moving)
-            return self.through(node.args[2:], turns, bent).get(node.args[2], np.zeros(turns[node].ahead.shape))
+            self._further(node.args[2:], moving, bent, done)
+            return bent.get(node.args[2], np.zeros(moving[node].ahead.shape))
         rule: Rule
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         y, values = node.value, [operand.value for operand in args]

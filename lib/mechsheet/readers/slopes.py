@@ -64,15 +64,20 @@ def _seen(
 
 def unfollowed(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
     """What has no slope by some quantities and stands between them and what is wanted; None where all is followed."""
-    moving = set(by)
-    for node in bottom_up(wanted, ()):
-        if not moving.isdisjoint(node.operands):
-            if node.op == "exported" or (node.op == "found" and not has_equation(node)):
-                return node
-            if node.op == "iterated" and (lost := unfollowed(node.args[2:], by)):
-                return lost
-            moving.add(node)
-    return None
+    moving, known = set(by), set[Node]()
+
+    def lost(nodes: Iterable[Node]) -> Node | None:
+        for node in bottom_up(nodes, known):
+            known.add(node)  # what the turns of several loops rest on is looked at once
+            if not moving.isdisjoint(node.operands):
+                if node.op == "exported" or (node.op == "found" and not has_equation(node)):
+                    return node
+                if node.op == "iterated" and (inside := lost(node.args[2:])):
+                    return inside
+                moving.add(node)
+        return None
+
+    return lost(wanted)
 
 
 def seen(wanted: Iterable[Node], by: Iterable[Node]) -> Node | None:
@@ -114,20 +119,24 @@ class Forward:
         self, wanted: Iterable[Node], moves: Mapping[Node, Motion], still: Iterable[Node] = ()
     ) -> dict[Node, Motion]:
         """How all that moves under some quantities does so, where some move and others are ``still``."""
-        moving, done = dict(moves), {*moves, *still}
+        moving = dict(moves)
+        self._further(wanted, moving, {*moves, *still})
+        return moving
+
+    def _further(self, wanted: Iterable[Node], moving: dict[Node, Motion], done: set[Node]) -> None:
         for node in bottom_up(wanted, done):
             done.add(node)
             if any(operand in moving for operand in node.operands):
-                motion = self._of(node, moving)
+                motion = self._of(node, moving, done)
                 if motion.moves.any():
                     moving[node] = motion
-        return moving
 
-    def _of(self, node: Node, moving: Mapping[Node, Motion]) -> Motion:
+    def _of(self, node: Node, moving: dict[Node, Motion], done: set[Node]) -> Motion:
         if node.op == "found":
             return self._found(node, moving)
         if node.op == "iterated":
-            return self.through(node.args[2:], moving).get(node.args[2]) or self.rest(node)
+            self._further(node.args[2:], moving, done)  # what the turns of several loops rest on moves once
+            return moving.get(node.args[2]) or self.rest(node)
         rule: Rule
         rule, args = kernel(node) or (RULES.get(node.op, smooth), node.operands)
         motions = [moving.get(operand) or self.rest(operand) for operand in args]
