@@ -254,6 +254,7 @@ _HINTS = {
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'|concatenate (list|tuple)": _SEVERAL,
     r"for unary .: '(tuple|list)'": _SEVERAL,
     r"return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
+    r"'?NoneType\b": "a function without return gives None",
     r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
         "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
@@ -261,9 +262,18 @@ _HINTS = {
     r"\bfunction'|type function\b": "a function is computed with what stands in its brackets, such as s(phi)",
     r"\bstr(ing)?\b.*\bChosen\b": "str(..) of an option is its text",
     r"'Chosen'": "an option is no number: its properties are read by their names, such as g.steel.R_e",
-    r"'NoneType'": "a function without return gives None",
     r"truth value of an array": "of many values each is chosen by np.where(condition, this, that)",
-    r"out of bounds for axis 0 with size 0": "no element is left there: none meets the condition",
+    r"out of bounds for axis 0 with size 0|zero-size array|empty sequence|argument is empty|is empty$": (
+        "no element is left there: none meets the condition"
+    ),
+    r"could not be broadcast|core dimension|same length|must match exactly": (
+        "arrays that are computed together have equally many elements"
+    ),
+    r"infs or NaNs|finite values|^SVD did not converge": (
+        "what it is made of does not exist everywhere, as where a mechanism does not close"
+    ),
+    r"^Singular matrix$": "the equations have no solution, or more than one",
+    r"^math domain error$": "as the root or the logarithm of a negative number, or the arcsine of more than 1",
     r"^only integers, slices": "a place is a whole number, as int(bolt.z); a column of a table is read by its name",
     r"cannot convert float (NaN|infinity) to integer": "what it is made of is none, as the root of a negative one",
     r"^StopIteration$": "next has found nothing for which its condition holds",
