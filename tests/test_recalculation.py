@@ -365,6 +365,43 @@ typeset()"""
     assert [verdicts(other)[name] for name in ("lengths", "rows", MADE)] == ["not evaluated"] * 2 + ["FAIL"]
 
 
+def test_a_condition_of_lines_that_went_another_way_is_no_number(
+    recalculated: Callable[[Path], Any], tmp_path: Path
+) -> None:
+    """It was that of the exported way, and what was not known was told not to exist, on the front sheet too."""
+    setup = """import numpy as np
+from mechsheet import ask, check, export, inputs, read, table, typeset"""
+    given = """way: str = "over"  # which side
+h: float = 3.0  # [m] height"""
+    lines = """def beyond(x):
+    if g.way == "over":
+        return x > 2
+    return x < 2
+x = np.linspace(1.0, 5.0, 3)  # [m] places
+e = np.where(beyond(x), np.nan, x)  # [m] those that are not
+exists = np.isfinite(e)  # [-] of each
+whole = np.isfinite(e).all()  # [-] all
+high = beyond(g.h)  # [-] height
+each = beyond(x)  # [-] every place
+plain = g.h > 2.5  # [-] rests on nothing else
+table_1 = table("1", "Places", x, exists)
+typeset()"""
+    path = tmp_path / "own.py"
+    path.write_text(written(setup, given, lines, "Own"))
+    made = computed(path, tmp_path, {})
+    same, other = recalculated(made), recalculated(edit(made, {"way": "under"}, tmp_path / "under.xlsx"))
+    for book, expected in ((same, [False, True, True]), (other, ["#N/A", "#N/A", True])):
+        known = {row[0]: row[1] for row in book["Table lines"].iter_rows(3, values_only=True)}
+        front = {row[0]: row[1] for row in book["Front"].iter_rows(5, values_only=True)}
+        assert [known[name] for name in ("whole", "high", "plain")] == expected
+        assert [front[name] for name in ("whole", "high", "plain")] == expected
+    for book, expected in ((same, [(True, False), (False, True), (False, True)]), (other, [("#N/A", "#N/A")] * 3)):
+        (heads,) = book["Table fields"].iter_rows(3, 3, values_only=True)
+        each = [row[heads.index("each")] for row in book["Table fields"].iter_rows(5, 7, values_only=True)]
+        exists = [row[1] for row in book["1 Places"].iter_rows(5, 7, values_only=True)]
+        assert [*zip(exists, each, strict=True)] == expected
+
+
 def test_a_line_that_is_another_name_of_one_bound_anew_follows(
     recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
 ) -> None:

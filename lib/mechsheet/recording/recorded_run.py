@@ -45,14 +45,9 @@ class Run(OfPositions):
     """One run of a worksheet's cells, statement by statement."""
 
     def __init__(
-        self,
-        sheet: Worksheet,
-        graph: Graph,
-        namespace: Mapping[str, Any],
-        want: Sequence[str],
-        lines: Mapping[str, Formula],
-        unnamed: bool = False,
-    ) -> None:
+        self, sheet: Worksheet, graph: Graph, namespace: Mapping[str, Any], want: Sequence[str],
+        lines: Mapping[str, Formula], unnamed: bool = False,
+    ) -> None:  # fmt: skip
         """Of what ``want`` needs, and with what cells show under no name where ``unnamed`` asks for it."""
         g, known = given(graph, inputs_of(namespace))
         super().__init__(Recording(graph, known, every=graph.thin))
@@ -112,6 +107,8 @@ class Run(OfPositions):
         """What a name is; the list or the tuple of a line as the one quantity that it is shown as."""
         value = self.names.get(name, self.passing.get(name))
         self.listed.pop(name, None)
+        if isinstance(value, Quantity) and value.dtype == bool:  # which is none only where it is shown
+            return self.while_same(value, self.looked.get(name, ()))
         if name in self.lines and isinstance(value, list | tuple) and has_quantity(value):
             with suppress(NotRecorded, ValueError):  # of rows that are not as long as each other, or texts among them
                 self.listed[name] = value = self.while_same(lift(self.graph, value), self.looked.get(name, ()))
@@ -248,8 +245,7 @@ class Run(OfPositions):
         self.recording.guards |= graph.numbered | noted
         rests, shown = rests | graph.looked, shown | graph.looked
         for name in beside:
-            seen = {guard.holds: guard for guard in (*self.looked.get(name, ()), *rests.values())}
-            self.looked[name] = tuple(seen.values())
+            self.looked[name] = tuple(({guard.holds: guard for guard in self.looked.get(name, ())} | rests).values())
         for name in touched:
             made = self.names.get(name)
             if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
