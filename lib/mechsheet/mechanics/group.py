@@ -68,11 +68,11 @@ class Reach(NamedTuple):
 
 
 def within(x: Float, most: Float, *of: Complex | Float) -> Float:
-    """x; ``most`` in size where it is more by four roundings of that and of what x is made of, which are no more."""
+    """x; ``most`` in size where it is more by four roundings of that and two of what x is made of: by no more."""
     more = np.abs(x) > most
     if not np.count_nonzero(more):
         return x
-    rounding = ROUNDINGS / 2 * (most + sum(map(np.abs, of)))
+    rounding = ROUNDINGS / 4 * (2 * most + sum(map(np.abs, of)))
     return np.where(more & (np.abs(x) - most <= rounding), np.copysign(most, x), x)
 
 

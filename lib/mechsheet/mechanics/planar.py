@@ -290,9 +290,9 @@ def near_one(length: Float) -> Float:
 def meet(x: Float, y: Float, z: Float, far: Float | float = 0.0) -> NDArray[np.bool_]:
     """x is at most y + z, or more by four roundings, as decimal lengths are: 0.8 is more than 0.1 + 0.7.
 
-    Rounded are the lengths and what they are taken from, of the size ``far``.
+    And by two of what they are taken from, of the size ``far``.
     """
-    return (x - y) - z <= 2 * _EPS * (x + far)
+    return (x - y) - z <= _EPS * (2 * x + far)
 
 
 def flat(x: Float, y: Float, z: Float) -> NDArray[np.bool_]:

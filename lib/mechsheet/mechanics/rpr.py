@@ -65,7 +65,7 @@ def rpr(A: ArrayLike, B: ArrayLike, branch: ArrayLike, offset: ArrayLike = 0.0) 
     Returns
     -------
     RPRPosition
-        u and s [m]; NaN where A is nearer to B than the offset, but for four roundings of |A|, |B| and their distance;
+        u and s [m]; NaN where A is nearer to B than the offset, but for roundings of |A|, |B| and their distance;
         no direction where A = B.
 
     Raises

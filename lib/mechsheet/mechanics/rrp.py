@@ -87,7 +87,7 @@ def rrp(
     Returns
     -------
     complex, shape (...)
-        C [m]; NaN where the link does not reach the guide (`rrp_reach`), but for four roundings of |A|, |B|, e and r_A.
+        C [m]; NaN where the link does not reach the guide (`rrp_reach`), but for roundings of |A|, |B|, e and r_A.
 
     Raises
     ------

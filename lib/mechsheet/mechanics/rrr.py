@@ -57,9 +57,9 @@ def rrr(A: ArrayLike, B: ArrayLike, r_A: ArrayLike, r_B: ArrayLike, branch: Arra
     .. math:: C = A + (a + i\,h)\,(B - A)/L^2, \quad a = (L^2 + r_A^2 - r_B^2)/2, \quad h = 2 s S, \quad L = |B - A|
 
     with S the area of the triangle of the sides L, r_A, r_B; zero where one of them is the rounded sum or difference of
-    the others, the end of reach, and beyond it by four roundings of the longest, |A| and |B|. The difference of squares
-    is factored. The sum starts from the pin of the shorter link, with the same formula, so that the length of each link
-    keeps its digits.
+    the others, the end of reach, and beyond it by four roundings of the longest and two of the pins. The difference of
+    squares is factored. The sum starts from the pin of the shorter link, with the same formula, so that the length of
+    each link keeps its digits.
 
     Parameters
     ----------

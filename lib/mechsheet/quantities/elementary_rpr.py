@@ -18,7 +18,7 @@ def rpr(A: Quantity, B: Quantity, branch: Quantity, offset: Quantity = 0) -> RPR
         s = step("s", "m", "distance along the slide", branch * L)
         return RPRPosition(d / s, s)
     e = step("e", "m", "offset, no more than the distance of the pins", np.clip(offset, -L, L))
-    excess = settled(L - np.abs(offset), (L + np.abs(A) + np.abs(B)) / 2)
+    excess = settled(L - np.abs(offset), (2 * L + np.abs(A) + np.abs(B)) / 4)
     s = step("s", "m", "distance along the slide", branch * np.sqrt(excess * (L + np.abs(offset))))
     return RPRPosition(d / (s + 1j * e), s)
 

@@ -14,7 +14,7 @@ from mechsheet.quantities.elementary_planar import Quantity, angle_between, cros
 def rrp(A: Quantity, B: Quantity, u: Quantity, r_A: Quantity, branch: Quantity, offset: Quantity = 0) -> Quantity:
     u = unit(u)
     h = step("h", "m", "outer pin to the left of the pin's path", cross(u, A - B) - offset)
-    excess = settled(r_A - np.abs(h), (r_A + np.abs(A) + np.abs(B) + np.abs(offset)) / 2)
+    excess = settled(r_A - np.abs(h), (2 * r_A + np.abs(A) + np.abs(B) + np.abs(offset)) / 4)
     ahead = step("x", "m", "pin ahead of the outer pin", branch * np.sqrt(excess * (r_A + np.abs(h))))
     return whole(A + (ahead - 1j * h) * u, u, ahead)
 

@@ -15,7 +15,7 @@ def rrr(A: Quantity, B: Quantity, r_A: Quantity, r_B: Quantity, branch: Quantity
     d = step("d", "m", "from the first outer pin to the second", B - A)
     LL = step("LL", "m**2", "squared distance of the outer pins", dot(d, d))
     over, under = (r_A + r_B) ** 2 / LL - 1, 1 - (r_A - r_B) ** 2 / LL
-    size = (r_A + r_B + np.abs(A) + np.abs(B)) / np.abs(d)
+    size = (r_A + r_B + (np.abs(A) + np.abs(B)) / 2) / np.abs(d)
     square = over * under * (np.abs(np.minimum(over, under)) > ROUNDINGS * size)  # zero of links in one line
     along = (1 + (r_A - r_B) * (r_A + r_B) / LL) / 2
     q = step("q", "-", "inner pin along the line of the outer pins, part of it", along)
