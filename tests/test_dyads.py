@@ -271,7 +271,7 @@ def test_rrr_closes_at_both_ends_of_its_reach_and_nowhere_outside(A: complex, B:
     low, high = rrr_reach(A, B, r)
     assert np.all(np.isfinite(rrr(A, B, r, [low, high], s)) == (A != B))
     assert np.all(np.isfinite(rrr(B, A, [low, high], r, s)) == (A != B))
-    beyond = 6 * np.spacing(high + abs(A) + abs(B))  # four roundings of each, and those of the ends
+    beyond = 6 * np.spacing(high + abs(A) + abs(B))  # of the longest, of the pins and of the ends
     assert np.isnan(rrr(A, B, r, high + beyond, s))
     assert low <= beyond or np.isnan(rrr(A, B, r, low - beyond, s))
 

@@ -55,7 +55,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mechsheet.mechanics.arguments import Complex, Float, scalar_field
-from mechsheet.mechanics.planar import cross, dot
+from mechsheet.mechanics.planar import cross, dot, meet
 
 ROUNDINGS = 8 * 2.0**-53  # a determinant that eight roundings make zero has no digit that can be trusted
 
@@ -68,12 +68,11 @@ class Reach(NamedTuple):
 
 
 def within(x: Float, most: Float, *of: Complex | Float) -> Float:
-    """x; ``most`` in size where it is more by four roundings of that and two of what x is made of: by no more."""
-    more = np.abs(x) > most
-    if not np.count_nonzero(more):
+    """x; ``most`` in size where it is more by rounding alone, as in `meet`, its own and that of what it is made of."""
+    size = np.abs(x)
+    if not np.count_nonzero(size > most):
         return x
-    rounding = ROUNDINGS / 4 * (2 * most + sum(map(np.abs, of)))
-    return np.where(more & (np.abs(x) - most <= rounding), np.copysign(most, x), x)
+    return np.where(meet(size, most, 0.0, sum(map(np.abs, of))), np.clip(x, -most, most), x)
 
 
 def endless(known: Complex | Float) -> Reach:

@@ -287,7 +287,7 @@ def near_one(length: Float) -> Float:
     return found
 
 
-def meet(x: Float, y: Float, z: Float, far: Float | float = 0.0) -> NDArray[np.bool_]:
+def meet(x: Float, y: Float, z: Float | float, far: Float | float = 0.0) -> NDArray[np.bool_]:
     """x is at most y + z, or more by four roundings, as decimal lengths are: 0.8 is more than 0.1 + 0.7.
 
     And by two of what they are taken from, of the size ``far``.
