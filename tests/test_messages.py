@@ -2,9 +2,11 @@
 
 import asyncio
 import json
+import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -134,3 +136,50 @@ def test_an_input_brings_two_messages_a_cell(serve, page, console_errors) -> Non
     assert states.count("idle") == states.count(None) >= len(outputs)
     assert "remove-ui-elements" not in {each["op"] for each in read}
     assert console_errors == []
+
+
+def asked(app: SimpleNamespace, path: str, body: object) -> list[str]:
+    """What the editor hears of a request, and whether it answers itself."""
+    heard: list[str] = []
+
+    async def marimo(scope: Any, receive: Any, send: Any) -> None:
+        heard.append((await receive())["body"].decode())
+
+    async def receive() -> Any:
+        return {"type": "http.request", "body": json.dumps(body).encode(), "more_body": False}
+
+    async def send(message: Any) -> None:
+        heard.append(str(message.get("status", "")))
+
+    headers = [(b"marimo-session-id", b"s_1")]
+    scope = {"type": "http", "method": "POST", "app": app, "headers": headers, "path": path}
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(lambda: asyncio.run(messages.Fewer(marimo)(scope, receive, send))).result()
+    return heard
+
+
+def test_an_edited_page_saves_nothing_over_what_was_written_into_its_file(tmp_path) -> None:
+    """A line that was written in place was gone, and said to be written, where a text beside it was saved at once."""
+    file, cells = tmp_path / "own.py", [SimpleNamespace(id="A", code="a = 1"), SimpleNamespace(id="B", code="b = 1")]
+    file.write_text("a = 1")
+    manager = SimpleNamespace(path=str(file), file_content_matches_last_save=lambda: file.read_text() == cells[0].code)
+    session = type("Session", (), {"app_file_manager": manager, "document": SimpleNamespace(cells=cells)})()
+
+    async def changed(path: str) -> None:
+        cells[0].code = file.read_text()
+
+    sessions = SimpleNamespace(mode="edit", watch=True, get_session={"s_1": session}.get, trigger_file_change=changed)
+    app = SimpleNamespace(state=SimpleNamespace(session_manager=sessions))
+
+    def saved(*codes: str) -> list[str]:
+        body = {"cellIds": ["A", "B"], "codes": codes}
+        return [each for each in asked(app, "/api/kernel/save", body) if each != json.dumps(body)]
+
+    assert saved("a = 1", "b = 1") == []
+    file.write_text("a = 2")
+    os.utime(file, ns=(0, 0))
+    assert saved("a = 1", "b = 2") == ["200", ""], "of before"
+    assert saved("a = 1", "b = 2") == ["200", ""], "it is still"
+    assert saved("a = 2", "b = 2") == []
+    asked(app, "/api/document/transaction", {})
+    assert saved("a = 1", "b = 2") == [], "typed since"

@@ -123,7 +123,7 @@ class InPlace:
             return {"asks": "it has no value, and without one nor has what stands below it in its cell"}
         if do == "write" and name.startswith(OF_INPUT):
             self.preview(text, told, name, was, new, below)  # without inputs there is nothing: a mistake refuses them
-        save(made.encode(), self.path)
+        save(told.of(self.path.read_bytes().decode()).encode(), self.path)  # the editor may have saved it meanwhile
         for path, (now, former) in self.scenes.pop(tuple(told.after), {}).items() if do == "undo" else ():
             if path.is_file() and path.read_bytes().decode() == now:
                 save(former.encode(), path)

@@ -7,9 +7,12 @@ page draws itself for each. Where the output comes at once, the output and that 
 import asyncio
 import json
 import re
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mechsheet.page import notebook
@@ -23,7 +26,8 @@ _FIELDS_OF = re.compile(r"object-id=\W{0,6}(\w+)-")
 class Fewer:
     """Middleware that keeps back what a served page need not be told; in the editor all is told.
 
-    And all that a page of a server before this one has begun.
+    And all that a page of a server before this one has begun. What an edited page saves while it does not hold yet what
+    was written into its file is left: the page saves once more when it does.
     """
 
     def __init__(self, app: ASGIApp) -> None:
@@ -32,6 +36,14 @@ class Fewer:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http":
             notebook.leave(scope)
+            if scope.get("method") == "POST" and not notebook.is_served(scope["app"]):
+                brought = await notebook.take_over(scope)
+                if brought and scope["path"].endswith("/api/kernel/save"):
+                    body = await Request(scope, receive).body()
+                    if _is_before(json.loads(body), brought):
+                        await PlainTextResponse("")(scope, receive, send)
+                        return
+                    receive = _again(body, receive)
         if scope["type"] != "websocket" or not notebook.is_served(scope["app"]):
             await self._app(scope, receive, send)
             return
@@ -107,6 +119,22 @@ class Told:
         while self._held:
             for message in self._held.pop(next(iter(self._held))):
                 await self._send(message)
+
+
+def _is_before(saved: Any, brought: Mapping[str, str]) -> bool:
+    """Whether what a page saves lacks one of the texts that it is brought."""
+    codes = dict(zip(saved["cellIds"], saved["codes"], strict=True))
+    return any(codes.get(cell, code) != code for cell, code in brought.items())
+
+
+def _again(body: bytes, receive: Receive) -> Receive:
+    """What gives the body of a request once more, and then what follows."""
+    left = [{"type": "http.request", "body": body, "more_body": False}]
+
+    async def received() -> Message:
+        return left.pop() if left else await receive()
+
+    return received
 
 
 def _read(text: str) -> _Said:
