@@ -2,6 +2,7 @@
 
 import ast
 import linecache
+import os
 import re
 from contextlib import nullcontext, suppress
 from math import asin, degrees
@@ -304,6 +305,51 @@ def test_the_lines_of_a_cell_stay_where_one_of_them_has_no_number():
         exec(compile(code, "c", "exec"), {})
     left = unfinished.left(cell, failed.value, {"a": 2.0, "rows": [[1.0], [1.0, 2.0]]})
     assert "line-a" in left and "rows of two lengths" in left
+
+
+def test_nothing_is_lost_while_the_page_takes_over_what_is_written(browser, chromium, tmp_path, monkeypatch):
+    """A line that is written in place, and what is typed elsewhere or taken back meanwhile: each had lost the others.
+
+    The server looks at the file as late as on a busy machine. The editor saves nothing by itself whose path begins with
+    /tmp/, as the same file's with one more slash does not.
+    """
+    late = "from marimo._utils import file_watcher\nfile_watcher.PollingFileWatcher.POLL_SECONDS = 1000\n"
+    (tmp_path / "sitecustomize.py").write_text(late, encoding="utf-8")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
+    sheet = tmp_path / "lever.py"
+    sheet.write_text(TEMPLATE.read_text(encoding="utf-8").replace("TITLE", "Lever"), encoding="utf-8")
+    file = placed(sheet, tmp_path)
+    with marimo_server("edit", Path(f"/{file}"), tmp_path) as address, new_page(browser) as page:
+        editor = Editor(page, address)
+        area, text = page.locator(".ms-box textarea"), page.locator(".cm-content", has_text="M_n = g.parts")
+        done = page.locator(".ms-written")
+
+        def write(line: str) -> None:
+            page.locator("#line-M_S > span").last.click()
+            expect(area).to_have_value(re.compile("^M_S = "))
+            area.fill(f"{line}  # [N*m] moment over the positions")
+            area.press("Enter")
+
+        for line, typed in (("M_S = 2 * M(phi)", "# one"), ("M_S = 3 * M(phi)", "# two")):
+            write(line)
+            expect(done).to_contain_text("M_S is written")
+            text.click()
+            page.keyboard.press("Control+End")
+            page.keyboard.insert_text(f"\n{typed}")
+            until(page, lambda: typed in file.read_text("utf-8"), "the editor does not save by itself")  # noqa: B023
+            assert line in file.read_text("utf-8") and typed in written(text)
+            page.keyboard.press("Control+Enter")
+            expect(page.locator(".needs-run")).to_have_count(0)
+            done.evaluate("chip => (chip.textContent = '')")
+        editor.expect_last_moment("1260")
+        page.locator(".ms-title b").first.click()
+        for line in ("M_S = 4 * M(phi)", "M_S = 5 * M(phi)"):
+            write(line)
+            until(page, lambda: line in file.read_text("utf-8"), "it is not written")  # noqa: B023
+        page.keyboard.press("Control+z")
+        page.keyboard.press("Control+z")
+        until(page, lambda: "M_S = 3 * M(phi)" in file.read_text("utf-8"), "both are taken back")
+        editor.expect_last_moment("1260")
 
 
 def test_a_check_written_as_a_line_is_seen_and_counted_at_once(editor):

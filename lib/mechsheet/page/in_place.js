@@ -5,6 +5,7 @@
   const EMPTY = { false: "F = m * a  # [N] force", true: "L: float = 0.5  # [m] length; > 0" };
   const UNSAVED = "a cell holds text that is not run and saved: run it and save (Ctrl+S), then write here";
   const TAKEN = 500; // ms between two questions whether the page has taken the file over
+  const PATIENCE = 3000; // ms that nothing can be typed elsewhere, where something computes for long
   const SHOWN = ".ms-line, [data-line]";
   const later = () => new Promise((then) => setTimeout(then, TAKEN));
   const AGAIN = "the page was being computed anew meanwhile: once more";
@@ -12,6 +13,7 @@
   const LEFT = "Enter writes this line, Esc leaves it as it was";
   let waiting; // the question that has no answer yet
   let last = Promise.resolve();
+  let turn = Promise.resolve(); // of changes of the file: the next one is of a page that holds the one before
   const written = []; // changes, the last one at the end
   let count = 0;
 
@@ -60,7 +62,7 @@
   chip.className = "ms-written";
   chip.role = "status";
   // What is edited: its place in the page, name, the line as it was, whether below it; busy while it is written; what is
-  // told because one clicked elsewhere, until one types again.
+  // told because one clicked elsewhere, until one types again; how often to take back what is being written.
   let of;
 
   const isTypedIn = () => area.value !== (of.below ? "" : of.was);
@@ -131,7 +133,7 @@
     const mine = (of = { place: host, name, was: "", below: false, from: focused() });
     edit(host);
     typed.replaceChildren();
-    const { line, why: told } = await ask({ do: "open", name });
+    const { line, why: told } = await turn.then(() => ask({ do: "open", name }));
     if (of !== mine) return;
     why.textContent = told || (isUnsaved() ? UNSAVED : "");
     of.was = line ?? "";
@@ -193,6 +195,7 @@
     clearTimeout(timer);
     timer = setTimeout(() => of && (area.value.trim() || !of.below) && preview(), 200);
   }
+  area.addEventListener("beforeinput", (event) => of.busy && event.preventDefault()); // it would not be written
   area.addEventListener("input", () => {
     of.left = "";
     of.sure = false; // of the text that was asked about
@@ -200,16 +203,23 @@
     typing();
   });
 
-  // Written is a line once the page holds it: until then, text typed elsewhere would be lost to the file that comes.
-  async function write(what, name, then) {
-    if (of?.busy) return;
-    // Another line, and text that is typed, stay in the box while something is taken back.
-    const mine = what.do === "undo" && of && (of.name !== name || isTypedIn()) ? undefined : of;
-    if (mine) clearTimeout(timer);
-    const tell = (text) => (mine && of === mine ? explain(text) : say(text));
-    if (isUnsaved()) return tell(UNSAVED);
-    if (mine) mine.busy = true;
+  const inTurn = (act) => (turn = turn.then(act));
+
+  // Nothing is typed elsewhere until it is known what is in the file: it would be lost to the file that comes.
+  async function change(what) {
+    const [root, from] = [document.getElementById("root"), focused()];
+    root.inert = true;
+    const patience = setTimeout(() => (root.inert = false), PATIENCE);
     const answer = await ask(what);
+    clearTimeout(patience);
+    root.inert = false;
+    if (focused() === document.body) from.focus({ preventScroll: true });
+    return answer;
+  }
+
+  async function write(what, name, mine, then) {
+    const tell = (text) => (mine && of === mine ? explain(text) : say(text));
+    const answer = isUnsaved() ? { why: UNSAVED } : await change(what);
     if (mine) mine.busy = false;
     const own = what.new?.trim().match(/^(?:def\s+)?([\p{L}\p{N}_]+)/u)?.[1];
     if (own) name = (name.startsWith("g.") ? "g." : "") + own;
@@ -223,18 +233,19 @@
     }
     if (what.do === "undo") written.pop();
     else written.push({ name, ...answer.written });
+    for (; mine?.back > 0; mine.back--) undo();
     const byKeys = mine && of === mine && mine.from !== document.body;
     if (mine && of === mine) close();
     const done = `${name.replace("g.", "")} is ${what.do === "undo" ? "as it was" : "written"}`;
     say(`${done}, the page takes it over`);
     for (let n = 0; n < 40; n++) {
-      await later();
       if ((await ask({ do: "taken" })).taken) {
         say(done);
         if (then) return then(name);
         await later();
         return byKeys && focused() === document.body && focus(name);
       }
+      await later();
     }
     say(`${done} into the file, but the page has not taken it over: open it by mechsheet edit, which watches the file`);
   }
@@ -251,15 +262,23 @@
   }
 
   function undo() {
-    const last = written.at(-1);
-    if (last) write({ do: "undo", before: last.after, after: last.before }, last.name);
+    inTurn(() => {
+      const last = written.at(-1);
+      // Another line, and text that is typed, stay in the box while something is taken back.
+      const mine = of && !of.busy && of.name === last?.name && !isTypedIn() ? of : undefined;
+      return last && write({ do: "undo", before: last.after, after: last.before }, last.name, mine);
+    });
   }
 
   const acts = {
     write(then, more = {}) {
-      const { name, was, below, sure = false } = of;
-      if (!area.readOnly && (area.value.trim() || !below))
-        write({ do: "write", name, was, new: area.value, below, sure, ...more }, name, then);
+      const mine = of;
+      const { name, was, below, sure = false, busy } = mine;
+      if (busy || area.readOnly || (!area.value.trim() && below)) return;
+      clearTimeout(timer);
+      [mine.busy, mine.back] = [true, 0];
+      const what = { do: "write", name, was, new: area.value, below, sure, ...more };
+      inTurn(() => write(what, name, mine, then));
     },
     everywhere() {
       if (!keys.querySelector('[data-do="everywhere"]').hidden) acts.write(undefined, { everywhere: true });
@@ -287,7 +306,7 @@
     else if (event.key === "Enter" && !event.shiftKey) {
       event.preventDefault();
       acts[event.ctrlKey || event.metaKey ? "below" : event.altKey ? "everywhere" : "write"]();
-    }
+    } else if (of.busy && event.key === "z" && (event.ctrlKey || event.metaKey)) of.back++; // of what is being written
   });
 
   const isTyped = (event) => event.composedPath()[0].closest?.("input, textarea, select, [contenteditable=true]");
