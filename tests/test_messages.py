@@ -166,20 +166,32 @@ def test_an_edited_page_saves_nothing_over_what_was_written_into_its_file(tmp_pa
     session = type("Session", (), {"app_file_manager": manager, "document": SimpleNamespace(cells=cells)})()
 
     async def changed(path: str) -> None:
-        cells[0].code = file.read_text()
+        if file.read_text() == "b = 3":
+            cells[:] = [SimpleNamespace(id="B", code="b = 3"), SimpleNamespace(id="C", code="c = 3")]
+        else:
+            cells[0].code = file.read_text()
 
     sessions = SimpleNamespace(mode="edit", watch=True, get_session={"s_1": session}.get, trigger_file_change=changed)
     app = SimpleNamespace(state=SimpleNamespace(session_manager=sessions))
 
-    def saved(*codes: str) -> list[str]:
-        body = {"cellIds": ["A", "B"], "codes": codes}
+    def saved(**cells: str) -> list[str]:
+        body = {"cellIds": list(cells), "codes": list(cells.values())}
         return [each for each in asked(app, "/api/kernel/save", body) if each != json.dumps(body)]
 
-    assert saved("a = 1", "b = 1") == []
+    assert saved(A="a = 1", B="b = 1") == []
     file.write_text("a = 2")
     os.utime(file, ns=(0, 0))
-    assert saved("a = 1", "b = 2") == ["200", ""], "of before"
-    assert saved("a = 1", "b = 2") == ["200", ""], "it is still"
-    assert saved("a = 2", "b = 2") == []
+    assert saved(A="a = 1", B="b = 2") == ["200", ""], "of before"
+    assert saved(A="a = 1", B="b = 2") == ["200", ""], "it is still"
+    assert saved(A="a = 2", B="b = 2") == []
     asked(app, "/api/document/transaction", {})
-    assert saved("a = 1", "b = 2") == [], "typed since"
+    assert saved(A="a = 1", B="b = 2") == [], "typed since"
+
+    file.write_text("b = 3")
+    os.utime(file, ns=(0, 1))
+    assert saved(A="a = 1", B="b = 3", C="c = 3") == ["200", ""], "one cell is no more"
+    assert saved(B="b = 3") == ["200", ""], "one is new"
+    assert saved(B="b = 3", C="c = 3") == []
+
+    manager.path = None
+    assert saved(B="b = 4") == [], "a new notebook has no file"

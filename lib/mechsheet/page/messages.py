@@ -121,10 +121,10 @@ class Told:
                 await self._send(message)
 
 
-def _is_before(saved: Any, brought: Mapping[str, str]) -> bool:
-    """Whether what a page saves lacks one of the texts that it is brought."""
+def _is_before(saved: Any, brought: Mapping[str, str | None]) -> bool:
+    """Whether a page saves other texts than those that it is brought."""
     codes = dict(zip(saved["cellIds"], saved["codes"], strict=True))
-    return any(codes.get(cell, code) != code for cell, code in brought.items())
+    return any(codes.get(cell) != code for cell, code in brought.items())
 
 
 def _again(body: bytes, receive: Receive) -> Receive:

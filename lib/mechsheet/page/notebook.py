@@ -307,23 +307,26 @@ def leave(scope: Any) -> None:
             sessions.close_session(told[b"marimo-session-id"].decode())
 
 
-async def take_over(scope: Any) -> Mapping[str, str]:
+async def take_over(scope: Any) -> Mapping[str, str | None]:
     """Let a page of the editor hold what was written into its file before a request of it is heard.
 
     marimo looks at a file once a second: what was typed until then would go with what comes from there, and what the
-    page saves would go over it. Returned are the texts that cells of the page have got from the file, by their ids,
-    until it tells of texts that it has. Nothing is taken over where the file is not watched.
+    page saves would go over it. Returned are the texts that cells of the page have got from the file, by their ids
+    (none: the cell is no more), until it tells of texts that it has. Nothing is taken over where no file is watched.
     """
     with suppress(AttributeError, KeyError, OSError):
         sessions = scope["app"].state.session_manager
         session = sessions.get_session(dict(scope["headers"])[b"marimo-session-id"].decode())
-        manager = session.app_file_manager
+        manager, document = session.app_file_manager, session.document
+        if not (sessions.watch and manager.path):  # a new notebook has no file yet
+            return {}
         now = Path(manager.path).stat().st_mtime_ns
         before, _seen[session] = _seen.get(session, now), now
-        if sessions.watch and now != before and not manager.file_content_matches_last_save():
-            texts = {cell.id: cell.code for cell in session.document.cells}
+        if now != before and not manager.file_content_matches_last_save():
+            had = {cell.id: cell.code for cell in document.cells}
             await sessions.trigger_file_change(manager.path)
-            _brought[session] = {c.id: c.code for c in session.document.cells if texts.get(c.id) != c.code}
+            has = {cell.id: cell.code for cell in document.cells}
+            _brought[session] = {each: has.get(each) for each in had | has if had.get(each) != has.get(each)}
         elif scope["path"].endswith("/api/document/transaction"):
             _brought.pop(session, None)
         return _brought.get(session, {})
@@ -331,7 +334,7 @@ async def take_over(scope: Any) -> Mapping[str, str]:
 
 
 _seen = WeakKeyDictionary[Any, int]()  # by sessions of pages, when their files were written
-_brought = WeakKeyDictionary[Any, dict[str, str]]()  # by the same, texts of cells by their ids
+_brought = WeakKeyDictionary[Any, dict[str, str | None]]()  # by the same, texts of cells by their ids
 
 
 def send_as_it_is(server: Any) -> None:
