@@ -148,7 +148,7 @@ def test_cells_that_marimo_runs_are_run_once(tmp_path: Path) -> None:
     ("old", "new", "told"),
     [
         ("= 10 * mm", "= 10 * nn", "rod.py, line 16, d = 10 * nn: the name nn is not defined in any cell"),
-        ("    d = 10 * mm", "    d = 0 * mm\n    [][1]", "rod.py, line 17, [][1]: list index out of range"),
+        ("    d = 10 * mm", "    d = 0 * mm\n    [][1]", "rod.py, line 17, [][1]: [] is empty: there is none at 1"),
     ],
 )
 def test_a_mistake_is_told_in_a_line(tmp_path: Path, old: str, new: str, told: str) -> None:

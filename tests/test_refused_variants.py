@@ -1,6 +1,5 @@
 """What a line of a worksheet raises for some numbers is the reason of these variants, and none for the others."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -11,17 +10,17 @@ from mechsheet import SheetError, evaluate, sweep
 from mechsheet.worksheet import mistakes
 
 NONE = "next has found nothing for which its condition holds"
-EMPTY, DOMAIN = r"min\(\) .*empty", "math domain error|expected a"  # in the words of several versions of Python
+EMPTY, DOMAIN, LARGE = "is empty: min takes", " has no value for ", "is beyond the largest number, 1.8e308"
 LINES = {  # that have no number for F = 4
     "y = next(v for v in (6.0, 8.0, 10.0) if v >= 3 * g.F)": NONE,
     "y = [next(v for v in (6.0, 8.0, 10.0) if v >= 3 * F) for F in (g.F, 1.0)][0]": NONE,
     "y = sum(next(v for v in (6.0, 8.0, 10.0) if v >= 3 * F) for F in (g.F, 1.0))": NONE,
-    "y = [6.0, 8.0, 10.0, 12.0][int(g.F)]": "list index out of range",
-    "y = {1: 2.0, 2: 3.0, 3: 4.0}[int(g.F)]": "KeyError: 4",
+    "y = [6.0, 8.0, 10.0, 12.0][int(g.F)]": "has 4 values, counted from 0: there is none at int(g.F) = 4",
+    "y = {1: 2.0, 2: 3.0, 3: 4.0}[int(g.F)]": "has no 4 (int(g.F)): it has 1, 2, 3",
     "y = math.pow(g.F - 4.0, -1)": DOMAIN,
-    "y = math.exp(200 * g.F)": "math range error",
-    "y = min(5.0, math.cosh(200 * g.F))": "math range error",
-    "assert g.F < 4\ny = g.F": "AssertionError",
+    "y = math.exp(200 * g.F)": LARGE,
+    "y = min(5.0, math.cosh(200 * g.F))": LARGE,
+    "assert g.F < 4\ny = g.F": "it does not hold: number F = 4",
     "from scipy.optimize import newton\ny = newton(lambda v: v**2 + g.F - 3.1, 1.0)": "Failed to converge",
 }
 
@@ -34,7 +33,7 @@ def test_an_error_of_some_numbers_is_the_reason_of_their_variant(lines: str, tmp
     for given in (at, np.concatenate([np.linspace(1.0, 3.0, 90), [4.0]])):
         swept = sweep(sheet.path, ["result"], {"F": given})
         assert swept.solved[:-1].all() and np.isnan(swept["result"][-1])
-        assert re.search(LINES[lines], swept.reasons[-1])
+        assert LINES[lines] in swept.reasons[-1]
         for k in (0, 1):
             assert swept["result"][k] == pytest.approx(
                 evaluate(sheet.path, ["result"], F=given[k])["result"], rel=1e-12
@@ -76,13 +75,13 @@ def test_what_numpy_makes_infinite_is_so_among_others_too(tmp_path: Path) -> Non
 UNSEEN = {  # that Python has no number for where F = 9, of which only a condition or an unused place takes one
     "y = g.a if min(z for z in (1.0, 8.0) if z > g.F) > 2 else 3.0": EMPTY,
     "y = g.a if next(z for z in (1.0, 8.0) if z > g.F) > 2 else 3.0": NONE,
-    "y = g.a if np.array([1.0, 2.0, 4.0, 8.0])[int(g.F)] > 3 else 3.0": "index 9 is out of bounds",
+    "y = g.a if np.array([1.0, 2.0, 4.0, 8.0])[int(g.F)] > 3 else 3.0": "none at int(g.F) = 9",
     "y = np.array([g.a, 3.0])\ny[y > 5] = min(z for z in (1.0, 8.0) if z > g.F)\ny = y.sum()": EMPTY,
     "y = [g.a, next(z for z in (1.0, 8.0) if z > g.F)][0]": NONE,
     "y = max((0.5, 2.0), key=lambda q: abs(q - min(z for z in (1.0, 8.0) if z > g.F)))": EMPTY,
     "def h(v):\n    w = math.log(9.0 - v)\n    return v\ny = h(g.F)": DOMAIN,
     "k = 1 / (g.F - 9.0)\nk = math.sqrt(g.F)\ny = k": "division by zero",
-    "y = g.a if math.exp(80 * g.F) > 3.0 else 2.0": "math range error",
+    "y = g.a if math.exp(80 * g.F) > 3.0 else 2.0": LARGE,
     "y = g.a\nfor z in (0.5, 1.0):\n    if z > math.fmod(1.0, g.F - 9.0):\n        y = y + z": DOMAIN,
 }
 
@@ -98,7 +97,7 @@ def test_what_python_refuses_has_no_number_when_asked_for_again(lines: str, tmp_
         evaluate(sheet.path, ["result"], F=9.0)
     F = np.append(np.linspace(0.5, 3.5, 210), 9.0)
     swept = sweep(sheet.path, ["result"], {"F": F})
-    assert re.search(UNSEEN[lines], swept.reasons[-1]) and np.isnan(swept["result"][-1]) and swept.solved[:-1].all()
+    assert UNSEEN[lines] in swept.reasons[-1] and np.isnan(swept["result"][-1]) and swept.solved[:-1].all()
     assert swept["result"][100] == sheet.run(["result"], {"g": sheet.inputs(F=F[100])})["result"]
 
 

@@ -41,7 +41,7 @@ REFUSED = {
     "a number for a function": ("y = find(g.F, 0.0, 1.0).value  # [-] y", GIVEN, "", "find takes a function of"),
     "no function to make least": ("y = minerr(3, a=1.0).a  # [-] y", GIVEN, "", "minerr takes a function of what is"),
     "no result of a sweep": (SWEPT, GIVEN, "", "'z' is no result of this sweep: it has GS6, L4"),
-    "largest of nothing": ("y = largest_of()  # [-] y", GIVEN, "", "largest_of() missing 1 required"),
+    "largest of nothing": ("y = largest_of()  # [-] y", GIVEN, "", "largest_of is called without "),
     "no colon": ("def f(x)\n    return x", GIVEN, "", "def f(x): expected ':'"),
 }  # fmt: skip
 
@@ -158,6 +158,46 @@ IN_WORDS = {  # what Python says in words about values that nobody sees in the l
     "another name": ("y = find(lambda x: x, 0, 1, equal=0.5).value  # [-] y", "or the unknowns equal"),
 }
 REFUSED |= {what: (lines, GIVEN, "", said) for what, (lines, said) in IN_WORDS.items()}
+MANY = "a = np.arange(3) * g.L  # [m] a\nb = np.arange(4) * g.L  # [m] b\n"
+MATRIX = "A = np.array([[1.0, 2.0], [2.0, 4.0]]) * g.n  # [-] A\n"
+BY_VALUES = {  # what a line computes with, by its name and value in the words of the worksheet
+    "y = a[a > 9].min()  # [m] y": "a[a > 9] is empty: min takes at least one value",
+    "y = min(v for v in a if v > 9)  # [m] y": "(v for v in a if v > 9) is empty: min takes at least one value",
+    "p, q = a": "a has 3 values for 2 names: p, q",
+    "p, q = g.L": "length L = 0.35 m is one number for 2 names: p, q",
+    "y = a + b  # [m] y": "a has 3 values, b has 4 values: they do not fit each other",
+    "y = a @ b  # [m] y": "a has 3 values, b has 4 values: they do not fit each other",
+    "y = np.polyfit(a, b, 1)  # [-] y": "a has 3 values, b has 4 values: they do not fit each other",
+    "y = np.interp(0.2, a, b)  # [m] y": "a has 3 values, b has 4 values: they do not fit each other",
+    "y = np.array([a, b])  # [m] y": "a has 3 values, b has 4 values: they do not fit each other",
+    "y = np.concatenate([a, g.L])  # [m] y": "a has 3 values, length L = 0.35 m is one number: they do not fit",
+    "a[:] = [1.0, 2.0]": "a[:] has 3 values, [1.0, 2.0] has 2 values: they do not fit each other",
+    f"{MATRIX}y = np.linalg.solve(A, [1.0, 2.0])  # [-] y": "A is singular: its equations depend on each other",
+    "y = np.linalg.det(np.ones((2, 3)))  # [-] y": "np.ones((2, 3)) has 2 x 3 values: it must have as many rows as",
+    "y = a[g.n]  # [m] y": "a has 3 values, counted from 0: there is none at number n = 3",
+    "f = lambda i: a[i]  # [m] f\ny = f(5)  # [m] y": "a has 3 values, counted from 0: there is none at i = 5",
+    "y = a[g.n / 3]  # [m] y": "g.n / 3 = 1.0: a place is a whole number, as int(g.n / 3)",
+    "y = {'M6': 20.1}['M' + '8']  # [-] y": "{'M6': 20.1} has no 'M8' ('M' + '8'): it has 'M6'",
+    "w = 'M8'\ny = g.L * w  # [m] y": "w = 'M8' is a text, no number",
+    "w = 'M8'\ny = np.sqrt(w)  # [m] y": "w = 'M8' is a text, no number",
+    "w = 'M8'\ny = float(w)  # [m] y": "w = 'M8' is no number",
+    "f = lambda x: None\ny = f(2) + 1  # [m] y": "f(2) is None: a function without return gives None",
+    "f = lambda x, z: x * z\ny = f(2)  # [m] y": "f is called without z",
+    "y = g.L / (g.n - 3)  # [m] y": "division by zero: g.n - 3 = 0",
+    "y = g.F ** 200  # [-] y": "g.F ** 200 is beyond the largest number, 1.8e308: force F = 1200 N",
+    "import math\ny = math.sqrt(-g.L)  # [-] y": "math.sqrt has no value for -g.L = -0.35",
+    "import math\nr = -g.L  # [mm] r\ny = math.sqrt(r)  # [-] y": "math.sqrt has no value for r = -350 mm",
+    "import math\ny = math.sqrt(a)  # [-] y": "a has 3 values, where math.sqrt takes one number: np.sqrt computes each",
+    "y = 1 if 1j * g.L > 0 else 2  # [-] y": "1j * g.L = 0.35j is complex, where a real number is taken",
+    "y = max(g.L)  # [m] y": "length L = 0.35 m is one number, where several are taken",
+    "y = np.where((a > 0) and (a < 9), 1, 2)  # [-] y": "of many values it is written (a > 0) & (a < 9)",
+    "y = np.where(0 < a < 9, 1, 2)  # [-] y": "of many values it is written (0 < a) & (a < 9)",
+    "y = np.sqroot(g.L)  # [m] y": "numpy has no sqroot (did you mean sqrt?)",
+    "y = np.zeros(g.n - 5)  # [m] y": "g.n - 5 = -2 must not be negative",
+    "assert g.L > 1\ny = g.L  # [m] y": "it does not hold: length L = 0.35 m",
+    "y = np.select([a > 0], [1, 2])  # [-] y": "list of cases must be same length",  # where none are better
+}
+REFUSED |= {lines: (MANY + lines, GIVEN, "", f": {said}") for lines, said in BY_VALUES.items()}
 
 
 @pytest.mark.parametrize("what", REFUSED)

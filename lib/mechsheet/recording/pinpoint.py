@@ -8,8 +8,8 @@ from typing import NamedTuple, TypeGuard
 
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.errors import as_written
 from mechsheet.worksheet.lines import Formula
-from mechsheet.worksheet.mistakes import as_written
 from mechsheet.worksheet.numbers import scientific
 from mechsheet.worksheet.source import bound
 

@@ -33,8 +33,8 @@ from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
+from mechsheet.worksheet.errors import as_written
 from mechsheet.worksheet.lines import Formula, of_setup, rebound
-from mechsheet.worksheet.mistakes import as_written
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.title import Mark, Slider
 

@@ -85,9 +85,9 @@ def _run(worksheet: str) -> None:
     from mechsheet.worksheet.verdict import listen  # on use: as above
 
     try:
+        warnings.showwarning = partial(_warn, Path(worksheet).resolve(), warnings.showwarning)
         sheet = load(worksheet)
         ask.unasked(sheet)
-        warnings.showwarning = partial(_warn, Path(worksheet).resolve(), warnings.showwarning)
         with listen():
             report.end(sheet.run_whole())
     finally:

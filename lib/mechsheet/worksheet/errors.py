@@ -1,5 +1,6 @@
 """The one error that a worksheet raises to its reader."""
 
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -42,6 +43,18 @@ def cut(text: str) -> str:
     ('P6', '9999999999.. (5000 characters)')
     """
     return text if len(text) <= _LONG else f"{text[:_LONG]}.. ({len(text)} characters)"
+
+
+def as_written(text: str) -> str:
+    """A text with the names that begin with _ as the worksheet has them: those that are run are called by their cell.
+
+    >>> as_written("_cell3_k + _cell_Hbol_k + k")
+    '_k + _k + k'
+    """
+    return _BY_CELL.sub("", text)
+
+
+_BY_CELL = re.compile(r"(?<!\w)_cell(\d+|_[^\W_]+)(?=_)")
 
 
 def some(places: Iterable[str]) -> list[str]:

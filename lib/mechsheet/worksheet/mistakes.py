@@ -11,7 +11,7 @@ from traceback import walk_tb
 from types import FrameType
 
 from mechsheet import units
-from mechsheet.worksheet.errors import SheetError, nearest
+from mechsheet.worksheet.errors import SheetError, as_written, nearest
 
 
 def place(file: str | Path, line: int) -> str:
@@ -22,18 +22,6 @@ def place(file: str | Path, line: int) -> str:
 def at(file: str | Path, line: int, text: str) -> str:
     """The same with the text of the line, without its comment."""
     return f"{place(file, line)}, {text.partition('  #')[0].strip().removesuffix(':')}"
-
-
-def as_written(text: str) -> str:
-    """A text with the names that begin with _ as the worksheet has them: those that are run are called by their cell.
-
-    >>> as_written("_cell3_k + _cell_Hbol_k + k")
-    '_k + _k + k'
-    """
-    return _BY_CELL.sub("", text)
-
-
-_BY_CELL = re.compile(r"(?<!\w)_cell(\d+|_[^\W_]+)(?=_)")
 
 
 def undefined(name: str, known: Iterable[str], inputs: Container[str] = ()) -> str:
@@ -156,6 +144,8 @@ def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterat
 
 def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
     """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
+    from mechsheet.worksheet.in_words import NOT_BOUND, in_words  # on use: as above
+
     if isinstance(error, NameError) and error.name:
         called = as_written(error.name)
         if called in inputs:
@@ -167,7 +157,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
             through = [line for _, line in walk_tb(error.__traceback__) if line <= len(lines)]
             read = [n for n in through if re.search(rf"\b{called}\b", lines[n - 1])]
             if read and places[0] < read[-1]:
-                return f"{called} has no value there: none of the ways that the lines above it went gives it one"
+                return f"{called} {NOT_BOUND}"
             return late(called, itself=bool(read) and places[0] == read[-1])
         return undefined(called, (name for name in known if not name.startswith("_")))
     if isinstance(error, AttributeError):
@@ -181,7 +171,9 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
         if module == "mechsheet.units" and (meant := units.nearest(name)):
             return f"unit {name} is not known; nearest: {', '.join(meant)}"
         return f"{module} has no {name}{_near(name, dir(sys.modules.get(module)))}"
-    said = " ".join(as_written(str(error)).split())
+    said, told = " ".join(as_written(str(error)).split()), in_words(error)
+    if told and "positional argument" not in said:
+        return told
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
     hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
@@ -192,7 +184,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
         hint = ""  # too many arguments of another kind
     elif hint == _SEVERAL and (typed := re.search(_TYPED, text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
-    return re.sub(r"'?\bChosen\b'?", "an option", said) + (f" ({hint})" if hint else "")
+    return (told or re.sub(r"'?\bChosen\b'?", "an option", said)) + (f" ({hint})" if hint else "")
 
 
 def _list(error: BaseException, said: str, text: str) -> str:
