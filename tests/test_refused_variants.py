@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from own_worksheet import own
+from own_worksheet import own, recorded, value_of
 
 from mechsheet import SheetError, evaluate, sweep
 from mechsheet.worksheet import mistakes
@@ -130,3 +130,11 @@ def test_a_result_that_only_some_ways_bind_has_a_reason_where_others_went(tmp_pa
     assert [*swept.reasons] == ["x_m has no value: none of the ways that its cell went gives it one", "", ""]
     with pytest.raises(SheetError, match="x_m has no value: none of the ways"):
         evaluate(tmp_path / "own.py", ["x_m"], F=1.0)
+
+
+def test_a_function_that_ends_without_a_return_is_recorded_for_the_inputs_that_it_returns_for(tmp_path: Path) -> None:
+    """The export raised an error of Python's: its other way has no line. Of what is None there is no number."""
+    sheet = own(tmp_path, "def h(v):\n    if v > 2:\n        return 2 * v\ny = h(g.F) + 1  # [-] y")
+    recording = recorded(sheet)[1]
+    assert [value_of(recording, "y", {"F": F}) for F in (2.5, 3.0)] == [6, 7]
+    assert np.isnan(value_of(recording, "y", {"F": 1.0}))

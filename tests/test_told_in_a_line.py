@@ -195,6 +195,7 @@ BY_VALUES = {  # what a line computes with, by its name and value in the words o
     "y = np.sqroot(g.L)  # [m] y": "numpy has no sqroot (did you mean sqrt?)",
     "y = np.zeros(g.n - 5)  # [m] y": "g.n - 5 = -2 must not be negative",
     "assert g.L > 1\ny = g.L  # [m] y": "it does not hold: length L = 0.35 m",
+    "y = find(lambda x: x - a, np.zeros(4), np.ones(4)).value  # [m] y": "4 values and 3 values do not fit each other",
     "y = np.select([a > 0], [1, 2])  # [-] y": "list of cases must be same length",  # where none are better
 }
 REFUSED |= {lines: (MANY + lines, GIVEN, "", f": {said}") for lines, said in BY_VALUES.items()}

@@ -388,7 +388,7 @@ def _both_ways(
     ways, defined = ("recorded then", "recorded otherwise"), list[ast.stmt]()
     for way, body in zip(ways, (then, otherwise), strict=True):
         given = ast.arguments([], [ast.arg(name) for name in names], None, [], [], None, [])
-        defined.append(ast.copy_location(ast.FunctionDef(way, given, body, []), node))
+        defined.append(ast.copy_location(ast.FunctionDef(way, given, body or [ast.Pass()], []), node))
     now = call("known", node, _call_of("locals"), *map(ast.Constant, names))
     functions = [ast.Name(way, ast.Load()) for way in ways]
     return defined, call("choice", node, node.test, *functions, ast.Starred(now, ast.Load()))

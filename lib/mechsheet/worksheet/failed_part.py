@@ -183,8 +183,16 @@ def _written(x: Any) -> str:
 
 
 def of(error: BaseException) -> Failed:
-    """Where an error was raised: the innermost part that is no library's, and none where its text cannot be read."""
-    places = [each for each in _walked(error) if not each.tb_frame.f_code.co_filename.startswith(_libraries())]
+    """Where an error was raised: the innermost part that is no library's.
+
+    None where its text cannot be read, and where it was raised in this package: by what that makes of its parts.
+    """
+    places = list[TracebackType]()
+    for each in _walked(error):
+        if each.tb_frame.f_code.co_filename.startswith(_OWN):
+            places.clear()
+        elif not each.tb_frame.f_code.co_filename.startswith(_libraries()):
+            places.append(each)
     if not places:
         return Failed(ast.Pass(), ast.Pass(), "", sys._getframe())
     frame, at = places[-1].tb_frame, places[-1].tb_lasti // 2
@@ -212,10 +220,13 @@ def _walked(error: BaseException) -> Iterator[TracebackType]:
         trace = trace.tb_next
 
 
+_OWN = str(Path(__file__).parents[1])
+
+
 @cache
 def _libraries() -> tuple[str, ...]:
     paths = sysconfig.get_paths()
-    return ("<", str(Path(__file__).parents[1]), *(paths[name] for name in ("stdlib", "purelib", "platlib")))
+    return ("<", *(paths[name] for name in ("stdlib", "purelib", "platlib")))
 
 
 @lru_cache(maxsize=8)

@@ -80,7 +80,7 @@ _NO_RETURN = "a function without return gives None"
 
 
 def _nothing(failed: Failed, *_: Any) -> str:
-    parts = failed.parts()
+    parts = failed.parts() if failed.is_of_numbers else []
     empty = [part for part in parts if part.size == 0] or [part for part in parts if part.value is UNKNOWN]
     needs = f": {failed.function.rpartition('.')[2]} takes at least one value" if failed.function else ""
     return f"{empty[0].text} is empty{needs}" if empty else ""
