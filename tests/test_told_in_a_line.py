@@ -141,12 +141,18 @@ IN_WORDS = {  # what Python says in words about values that nobody sees in the l
     "two of no return": ("def f(x):\n    x * 2\ny, z = f(1)  # [-] y", "a function without return gives None"),
     "the greatest of none": ("d = np.arange(3)  # [-] d\ny = d[d > 9].max()  # [-] y", "none meets the condition"),
     "the most of none": ("y = max(d for d in range(3) if d > 9)  # [-] y", "none meets the condition"),
-    "other lengths": ("y = np.arange(3) + np.arange(4)  # [-] y", "computed together have equally many elements"),
+    "other lengths": (
+        "y = np.arange(3) + np.arange(4)  # [-] y",
+        "3 values, np.arange(4) has 4 values: they do not fit",
+    ),
     "what does not exist": ("y = np.roots([1.0, np.nan, 2.0])  # [-] y", "as where a mechanism does not close"),
-    "no one solution": ("y = np.linalg.solve(np.ones((2, 2)), [1, 2])  # [-] y", "no solution, or more than one"),
+    "no one solution": (
+        "y = np.linalg.solve(np.ones((2, 2)), [1, 2])  # [-] y",
+        "is singular: its equations depend on each other",
+    ),
     "a root of Python's": (
         "import math\ny = math.sqrt(-g.L / g.L)  # [-] y",
-        "the root or the logarithm of a negative",
+        "math.sqrt has no value for -g.L / g.L = -1",
     ),
     "the imaginary unit": ("y = 2 * j  # [-] y", "(the imaginary unit is 1j)"),
     "a switch": ("y = 2 * yes  # [-] y", "(did you mean True?)"),

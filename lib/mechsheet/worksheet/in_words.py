@@ -83,7 +83,12 @@ def _nothing(failed: Failed, *_: Any) -> str:
     parts = failed.parts() if failed.is_of_numbers else []
     empty = [part for part in parts if part.size == 0] or [part for part in parts if part.value is UNKNOWN]
     needs = f": {failed.function.rpartition('.')[2]} takes at least one value" if failed.function else ""
-    return f"{empty[0].text} is empty{needs}" if empty else ""
+    return f"{empty[0].text} is empty{needs}{_none_meets(failed)}" if empty else ""
+
+
+def _none_meets(failed: Failed) -> str:
+    """Why nothing is left, where a condition stands in the line."""
+    return " (none meets the condition)" * any(isinstance(each, ast.Compare) for each in ast.walk(failed.node))
 
 
 def _of_other_length(failed: Failed, said: Match[str], _: Any) -> str:
@@ -148,8 +153,7 @@ def _place(failed: Failed, said: Match[str], _: Any) -> str:
         return ""
     at = ", ".join(_equal(place, known[1]) if known and len(places) == 1 else place.says for place in places)
     if 0 in shape:
-        condition = any(isinstance(each, ast.Compare) for each in ast.walk(failed.node))
-        return f"{container.text} is empty: there is none at {at}{' (none meets the condition)' * condition}"
+        return f"{container.text} is empty: there is none at {at}{_none_meets(failed)}"
     if "too many" in said.string:
         return f"{container.text} has {_count(shape)}: {at} are too many places for it"
     return f"{container.text} has {_count(shape)}, counted from 0: there is none at {at}"

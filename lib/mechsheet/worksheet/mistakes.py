@@ -258,14 +258,9 @@ _HINTS = {
     r"out of bounds for axis 0 with size 0|zero-size array|empty sequence|argument is empty|is empty$": (
         "no element is left there: none meets the condition"
     ),
-    r"could not be broadcast|core dimension|same length|must match exactly": (
-        "arrays that are computed together have equally many elements"
-    ),
     r"infs or NaNs|finite values|^SVD did not converge": (
         "what it is made of does not exist everywhere, as where a mechanism does not close"
     ),
-    r"^Singular matrix$": "the equations have no solution, or more than one",
-    r"^math domain error$": "as the root or the logarithm of a negative number, or the arcsine of more than 1",
     r"^only integers, slices": "a place is a whole number, as int(bolt.z); a column of a table is read by its name",
     r"cannot convert float (NaN|infinity) to integer": "what it is made of is none, as the root of a negative one",
     r"^StopIteration$": "next has found nothing for which its condition holds",
