@@ -64,7 +64,7 @@ def test_a_mistake_in_a_function_is_told_at_the_cell_that_calls_it(planted: Call
     page = planted(("* sin(phi)  #", "* sin(phi) / g.parts[7]  #"))
     expect_told(
         page,
-        "sin(phi) / g.parts[7]: g.parts has 3 values, counted from 0: there is none at 7",
+        "line 88, return g.F * g.L * sin(phi) / g.parts[7]: g.parts has 3 values, counted from 0: there is none at 7",
     )
     assert waiting(page) == {"2.1": "waits for section 2", "3": "waits for section 2"}
     page.set_viewport_size({"width": 1280, "height": 3000})
