@@ -10,7 +10,7 @@ import sysconfig
 import warnings
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
-from itertools import chain, islice
+from itertools import chain
 from pathlib import Path
 from types import FrameType, ModuleType, TracebackType
 from typing import Any, NamedTuple
@@ -198,19 +198,25 @@ def of(error: BaseException) -> Failed:
     frame, at = places[-1].tb_frame, places[-1].tb_lasti // 2
     linecache.checkcache(frame.f_code.co_filename)
     text = "".join(linecache.getlines(frame.f_code.co_filename))
-    span = next(islice(frame.f_code.co_positions(), at, None), (None,) * 4)
-    found: ast.AST = ast.Pass()
-    above: ast.AST = found
+    own, line = [*frame.f_code.co_positions()], places[-1].tb_lineno
+    nodes, indented = dict[Any, tuple[ast.AST, ast.AST]](), 0
     for statement in _parsed(text).body:
-        if span[0] is not None and statement.lineno <= span[0] <= (statement.end_lineno or 0):
-            for node in ast.walk(statement):
-                for part in ast.iter_child_nodes(node):
-                    if tuple(getattr(part, each, None) for each in _SPAN) == span:
-                        found, above = part, node
+        if statement.lineno <= line <= (statement.end_lineno or 0):
+            nodes = {_span(part): (part, node) for node in ast.walk(statement) for part in ast.iter_child_nodes(node)}
+            indented = getattr(statement, "body", [statement])[0].col_offset
+    # The columns are those of the file, or of a cell that marimo has compiled without its indentation.
+    right = max((0, indented), key=lambda n: sum(_moved(span, n) in nodes for span in own))
+    found, above = nodes.get(_moved(own[at], right), (ast.Pass(), ast.Pass()))
     return Failed(found, above, text, frame)
 
 
-_SPAN = ("lineno", "end_lineno", "col_offset", "end_col_offset")
+def _span(node: ast.AST) -> tuple[Any, ...]:
+    """First and last line, first and last column; None where a node has no place."""
+    return tuple(getattr(node, each, None) for each in ("lineno", "end_lineno", "col_offset", "end_col_offset"))
+
+
+def _moved(span: tuple[Any, ...], right: int) -> tuple[Any, ...]:
+    return *span[:2], *(column if column is None else column + right for column in span[2:])
 
 
 def _walked(error: BaseException) -> Iterator[TracebackType]:
