@@ -558,7 +558,8 @@ def test_mistakes_are_told_in_words_at_the_top_and_at_their_line(editor):
     cell.get_by_role("button", name="Collapse traceback").hover()
     trace.wait_for()
     tells(
-        editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"), "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin() takes from"
+        editor.edit("sinn(phi)", "sin(phi, 1, 2, 3)"),
+        "line 4, return g.F * g.L * sin(phi, 1, 2, 3): sin is called with 4 values, and takes from 1 to 2",
     )
     tells(
         editor.edit("sin(phi, 1, 2, 3)", "2sin(phi)"),
