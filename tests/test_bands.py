@@ -382,7 +382,7 @@ def sized(g):
     path.write_text(path.read_text(encoding="utf-8").replace("if __name__", f"{cell}if __name__"), encoding="utf-8")
     sheet = cells.load(str(path))
     found, _ = bands(sheet)
-    assert re.search(r"no numbers: own\.py, line \d+, size = min\(.*: min\(\) ", "\n".join(found.lines()))
+    assert re.search(r"no numbers: own\.py, line \d+, size = min\(.*\) is empty: min takes", "\n".join(found.lines()))
     asked = arguments.read(["--tolerances", "--want=y,size"], declared(sheet.inputs))
     batch.answer(sheet.path, asked)
     out = capsys.readouterr().out
