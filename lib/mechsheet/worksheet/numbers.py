@@ -1,7 +1,7 @@
 """Numbers as texts: how many digits are shown, and how a notation writes them, with their unit."""
 
 import re
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -58,20 +58,19 @@ def fixed(x: float, decimals: int, to: Notation = PLAIN) -> str:
     return text if to.minus == "-" else text.replace("-", to.minus)
 
 
-def _in_full(values: Iterable[float], decimals: int) -> int:
+def _in_full(known: NDArray[np.float64], decimals: int) -> int:
     """So many decimals, or one or two more where no number has any behind them.
 
-    >>> _in_full([1.0, 1.25], 1), _in_full([1.0, 1.5], 1), _in_full([1.0, 4 / 3], 1)
-    (2, 1, 1)
+    >>> [_in_full(np.array(known), 1) for known in ([1.0, 1.25], [1.0, 1.5], [1.0, 4 / 3])]
+    [2, 1, 1]
     """
-    known = np.array([x for x in values if isfinite(x)])
     for more in (decimals, decimals + 1, decimals + 2):
         if (np.abs(known - np.round(known, more)) <= 1e-6 * 10.0**-more).all():
             return more
     return decimals
 
 
-def enough(values: Collection[float], decimals: int) -> int:
+def enough(values: ArrayLike, decimals: int) -> int:
     """So many decimals, or more where these show numbers in full, or left less than two digits of the largest: three.
 
     Of one with more than six digits before its point only so many that these are nine in all.
@@ -81,8 +80,10 @@ def enough(values: Collection[float], decimals: int) -> int:
     >>> enough([1 / 3, 7654321.1], 3), enough([1 / 3, 4.8e14], 3)
     (2, 0)
     """
-    decimals = _in_full(values, decimals)
-    largest = max((abs(x) for x in values if isfinite(x)), default=0.0)
+    known = np.asarray(values, float)
+    known = known[np.isfinite(known)]
+    decimals = _in_full(known, decimals)
+    largest = np.abs(known).max(initial=0.0)
     if largest < _SMALLEST:
         return decimals
     place = floor(log10(largest))

@@ -297,7 +297,7 @@ def _columns(
         if is_label:
             columns.append(Column(line.name.rpartition(".")[2], "", line.meaning, 0, row))
             continue
-        shown = row / units.parse(unit).factor
+        shown = np.asarray(row) / units.parse(unit).factor
         usual = decimals is None and kind == "f"
         places = 0 if kind in "iu" else usual_decimals(unit) if decimals is None else decimals
         places = numbers.enough(shown, places) if usual else places
