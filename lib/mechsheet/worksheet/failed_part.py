@@ -2,13 +2,14 @@
 
 import ast
 import builtins
+import dis
 import linecache
 import math
 import re
 import sys
 import sysconfig
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path
@@ -50,11 +51,14 @@ def is_number(value: object) -> bool:
 class Failed:
     """The part of a worksheet, or of what it imports from beside it, in which an error was raised."""
 
-    def __init__(self, node: ast.AST, above: ast.AST, text: str, frame: FrameType) -> None:
+    def __init__(self, node: ast.AST, above: ast.AST, text: str, frame: FrameType, gone: Collection[str] = ()) -> None:
+        """The names that are ``gone`` had values there which nobody knows any more."""
         self.node, self.above, self._text, code = node, above, text, frame.f_code
         called = {as_written(name): name for name in (*code.co_names, *code.co_varnames, *code.co_freevars)}
         self._names = vars(builtins) | frame.f_globals | frame.f_locals
         self._names |= {own: self._names[name] for own, name in called.items() if name in self._names}
+        for name in gone:
+            self._names.pop(name, None)
         self._own = {*code.co_varnames, *code.co_freevars}
 
     def part(self, node: ast.AST) -> Part:
@@ -113,11 +117,13 @@ class Failed:
                 return [left, *others]
             case ast.UnaryOp(_, x) | ast.Attribute(x):
                 return [x]
-            case ast.For(_, x) | ast.While(x) | ast.Assert(x):
+            case ast.For(_, x) | ast.comprehension(_, x) | ast.While(x):
                 return [x]
             case ast.BoolOp(_, several):
                 return several
-            case ast.GeneratorExp(_, [of, *_]) | ast.ListComp(_, [of, *_]):
+            case ast.GeneratorExp(_, [of, *_]) | ast.ListComp(_, [of, *_]) | ast.SetComp(_, [of, *_]):
+                return [of.iter]
+            case ast.DictComp(_, _, [of, *_]):
                 return [of.iter]
             case ast.Tuple(ctx=ast.Store()) | ast.List(ctx=ast.Store()):
                 match self.above:
@@ -199,15 +205,40 @@ def of(error: BaseException) -> Failed:
     linecache.checkcache(frame.f_code.co_filename)
     text = "".join(linecache.getlines(frame.f_code.co_filename))
     own, line = [*frame.f_code.co_positions()], places[-1].tb_lineno
-    nodes, indented = dict[Any, tuple[ast.AST, ast.AST]](), 0
+    above, indented = dict[ast.AST, ast.AST](), 0
     for statement in _parsed(text).body:
         if statement.lineno <= line <= (statement.end_lineno or 0):
-            nodes = {_span(part): (part, node) for node in ast.walk(statement) for part in ast.iter_child_nodes(node)}
+            above = {part: node for node in ast.walk(statement) for part in ast.iter_child_nodes(node)}
             indented = getattr(statement, "body", [statement])[0].col_offset
+    nodes = {_span(part): part for part in above}
     # The columns are those of the file, or of a cell that marimo has compiled without its indentation.
     right = max((0, indented), key=lambda n: sum(_moved(span, n) in nodes for span in own))
-    found, above = nodes.get(_moved(own[at], right), (ast.Pass(), ast.Pass()))
-    return Failed(found, above, text, frame)
+    found = nodes.get(_moved(own[at], right), ast.Pass())
+    gone = () if frame.f_code.co_name.endswith("comp>") else {*_of_comprehensions(found, above)}
+    if isinstance(found, ast.Assert):  # which Python 3.12 names instead of what does not hold
+        found = found.test
+    elif dis.opname[frame.f_code.co_code[2 * at]] == "GET_ITER" and getattr(above.get(found), "iter", None) is found:
+        found = above[found]  # from Python 3.13 on what is gone through is named, not what goes through it
+    return Failed(found, above.get(found, ast.Pass()), text, frame, gone)
+
+
+def _of_comprehensions(part: ast.AST, above: Mapping[ast.AST, ast.AST]) -> Iterator[str]:
+    """Names of the comprehensions around a part.
+
+    From Python 3.12 on these run in the frame of what they stand in, where their names have no value any more when an
+    error has left them; what stands around a function or a generator has another frame.
+    """
+    before = part
+    while part in above:
+        of = above[part]
+        if isinstance(of, ast.Lambda) and part is of.body:
+            return
+        generators = getattr(of, "generators", ())
+        if generators and (part is not generators[0] or before is not part.iter):
+            if isinstance(of, ast.GeneratorExp):
+                return
+            yield from (n.id for each in generators for n in ast.walk(each.target) if isinstance(n, ast.Name))
+        before, part = part, of
 
 
 def _span(node: ast.AST) -> tuple[Any, ...]:

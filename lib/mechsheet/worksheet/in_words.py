@@ -258,6 +258,8 @@ def _not_square(failed: Failed, *_: Any) -> str:
 
 def _attribute(failed: Failed, _: Any, error: Any) -> str:
     of, name = error.obj, error.name
+    if not name and isinstance(failed.node, ast.Attribute):  # of what is set, of which Python tells them from 3.13 on
+        of, name = failed.part(failed.node.value).value, failed.node.attr
     if of is None and isinstance(failed.node, ast.Attribute):
         return f"{failed.part(failed.node.value).text} is None: {_NO_RETURN}"
     if isinstance(of, ModuleType):
@@ -347,7 +349,7 @@ _ONE = r"not iterable|not subscriptable|has no len|one dimension|enough dimensio
 _RULES = (  # the first that knows words
     _Rule(TypeError, r"(\S+)\(\) missing \d+ required [\w-]+ arguments?: (.*)", _lacking),
     _Rule(TypeError, r"(\S+)\(\) takes (.+?) positional arguments? but (\d+) (?:was|were) given", _arguments),
-    _Rule(TypeError, r"(\S+?)(?:\(\))? (?:takes|expected) (.+?) arguments? ?\((\d+) given\)", _arguments),
+    _Rule(TypeError, r"(\S+?)(?:\(\))? (?:takes|expected) (.+?) arguments?(?:,? got | ?\()(\d+)", _arguments),
     _Rule(TypeError, r"(\S+)\(\) got an unexpected keyword argument '(\w+)'", _no_argument),
     _Rule((TypeError, ValueError), "unpack", _unpacked),
     _Rule(ZeroDivisionError, "", _by_zero),

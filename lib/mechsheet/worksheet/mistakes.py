@@ -115,11 +115,12 @@ def told(error: BaseException, path: str) -> str:
         text = (error.text or "").lstrip("\ufeff")
         return f"{at(file, error.lineno or 0, text)}: {unread(error)}"
     places = _places(error, file)
-    known = {*places[-1][0].f_globals, *places[-1][0].f_locals} - {*dir(builtins)} if places else set[str]()
     if not places:
-        return why(error, known)
+        return why(error, ())
+    frame = places[-1][0]
+    known = {*frame.f_globals, *frame.f_locals, *frame.f_code.co_varnames} - {*dir(builtins)}
     line, text = places[-1][1], file.read_text(encoding="utf-8")
-    given = input_names(places[-1][0].f_globals)
+    given = input_names(frame.f_globals)
     return f"{at(file, line, text.splitlines()[line - 1])}: {why(error, known, text, given)}"
 
 
