@@ -318,8 +318,10 @@ def changes(code: CodeType) -> bool:
     if not _METHODS.isdisjoint(code.co_names):
         return True
     last, does = "", operations(code)
+    # From Python 3.12 on a comprehension is called no more: one for no value ends by these.
+    unused = ("CALL", "STORE_FAST", "POP_TOP", "POP_ITER") if "LOAD_FAST_AND_CLEAR" in does else ("CALL",)
     for instruction in dis.get_instructions(code) if not does.isdisjoint(_MAY_CHANGE) else ():
-        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith("CALL")):
+        if instruction.opname in _SETS or (instruction.opname == "POP_TOP" and last.startswith(unused)):
             return True
         if instruction.opname == "STORE_DEREF" and instruction.argval in code.co_freevars:
             return True
