@@ -456,6 +456,22 @@ def test_an_unfinished_installation_is_begun_anew(
     assert project.steps_for("dev") == ["create", "install dev"]
 
 
+def test_one_that_is_half_removed_is_begun_anew(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    project.steps_for("")
+    (project.root / "pyproject.toml").write_text("[project]\ndependencies = []\n")
+
+    def interrupted(folder: Path) -> None:
+        for file in folder.iterdir():
+            if file.is_file():
+                file.unlink()
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched, pytest.raises(SystemExit, match="interrupted"):
+        patched.setattr(shutil, "rmtree", interrupted)
+        launcher.environment(project.root, "")
+    assert project.steps_for("") == ["create", "install"]
+
+
 def test_an_environment_made_by_other_means_is_left_alone(project: Project) -> None:
     own = project.root / ".venv" / "own.txt"
     own.parent.mkdir()

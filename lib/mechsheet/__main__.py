@@ -423,10 +423,13 @@ def create(folder: Path, mark: Path) -> None:
     import shutil  # on use: once for a clone
     import venv  # on use: as above
 
-    if folder.exists():
-        shutil.rmtree(folder)
-    folder.mkdir()
-    mark.write_text("")
+    folder.mkdir(exist_ok=True)
+    mark.write_text("")  # first of all, and it stays: without it what an interruption leaves would be somebody else's
+    for part in folder.iterdir():
+        if part.is_dir() and not part.is_symlink():
+            shutil.rmtree(part)
+        elif part != mark:
+            part.unlink()
     venv.EnvBuilder(with_pip=True, symlinks=os.name != "nt").create(folder)
 
 
