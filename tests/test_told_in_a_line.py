@@ -1,5 +1,6 @@
 """Mistakes of who begins: each is one line that names what is wrong, and where; none passes without a word."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -268,6 +269,15 @@ def test_a_whole_number_that_no_float_is_has_a_limit(tmp_path: Path) -> None:
 def test_several_lines_behind_one_another_are_computed(tmp_path: Path) -> None:
     run = as_script(worksheet(tmp_path, "y = g.F * g.L; z = 3  # [N*m] moment"))
     assert run.returncode == 0, run.stderr
+
+
+def test_warnings_of_what_is_written_are_told_once(tmp_path: Path) -> None:
+    """At every reading of the file. Of a backslash, as of formulas in texts, Python warns from 3.12 on."""
+    run = as_script(worksheet(tmp_path, "y = g.F  # [N] y\nsame = g.F is 5.0\ntext = 'with $\\phi$'"))
+    compared, *others = sorted(run.stderr.splitlines())
+    assert 'told.py, line 35, same = g.F is 5.0: "is" with' in compared, run.stderr
+    assert all(line.endswith("""(a text with \\ is written r"..")""") for line in others), run.stderr
+    assert run.returncode == 0 and (len(others) == 1 or (not others and sys.version_info < (3, 12)))
 
 
 def test_warnings_of_what_a_line_calls_are_told_at_the_line(tmp_path: Path) -> None:

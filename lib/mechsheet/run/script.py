@@ -19,6 +19,7 @@ from mechsheet.run.ending import is_over, warn, watch
 
 _END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
 _reporting = list[str]()  # the worksheet that is to be reported at the exit
+_warned = set[str]()
 _SEARCHES = 50  # of those that are new, before older ones are looked through too
 _OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
@@ -109,7 +110,12 @@ def _warn(
     from mechsheet.worksheet import mistakes  # on use: most runs warn of nothing
 
     text = worksheet.read_text(encoding="utf-8").splitlines()
-    warn(f"{mistakes.at(worksheet, line, text[line - 1])}: {message}")
+    # Of a backslash, as in $\phi$, Python warns from 3.12 on.
+    hint = ' (a text with \\ is written r"..")' if "escape sequence" in str(message) else ""
+    told = f"{mistakes.at(worksheet, line, text[line - 1])}: {message}{hint}"
+    if told not in _warned:  # a file is read more than once
+        _warned.add(told)
+        warn(told)
 
 
 if __name__ == "__main__":
