@@ -100,6 +100,7 @@ def test_signs_of_print_are_told_as_they_are_written(line: str) -> None:
         ("in = 3", "in is a word of Python: take another name, such as in_1"),
         ("y = f(a=1, 2)", "positional argument follows keyword argument"),
         ("if y = 2:\n    z = 3", "invalid syntax (what is compared is written ==)"),
+        ("print y", "Missing parentheses in call to 'print'. Did you mean print(...)?"),
     ],
 )
 def test_a_slip_is_told_in_one_line_without_a_second_guess(line: str, says: str) -> None:

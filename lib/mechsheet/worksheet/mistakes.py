@@ -205,7 +205,8 @@ def unread(error: SyntaxError) -> str:
             "the file begins with a byte order mark (BOM), which Python's editors refuse: save it as UTF-8 without one"
         )
     text = (error.text or "").partition("#")[0]
-    if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate")):  # which say enough
+    # These say enough; the last one Python 3.14 says of words that are like its own too.
+    if error.msg.startswith(("expected", "unexpected indent", "unindent", "duplicate")) or "Did you mean" in error.msg:
         return error.msg
     if function := re.match(_FUNCTION, text):
         return f"a function is written {function[1]} = lambda {function[2]}: .."
