@@ -108,6 +108,14 @@ def test_a_name_that_nothing_binds_is_a_mistake_whatever_the_inputs_are(tmp_path
 
 
 @pytest.mark.filterwarnings("error")
+def test_what_a_function_holds_under_a_name_is_not_known_where_another_way_sets_it(tmp_path: Path) -> None:
+    """It was as it is here: a wrong number of inputs for which the function is called, and nothing said so."""
+    lines = "def h():\n    h.k = 1.0\n    return g.F\nh.k = 5.0\ny = h() if g.F > 5 else g.F  # [-] y\n"
+    _, recording = recorded(own(tmp_path, f"{lines}z = 2 * g.F * h.k  # [-] z"))
+    assert value_of(recording, "z", {"F": 3.25}) == 32.5 and np.isnan(value_of(recording, "z", {"F": 6.0}))
+
+
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("changes", ["[row.sort() for row in rows]", "{k: v.sort() for k, v in enumerate(rows)}"])
 def test_a_way_that_changes_something_is_not_gone_to_see_what_it_gives(changes: str, tmp_path: Path) -> None:
     """Nor in a comprehension, which from Python 3.12 on is called no more: the line was not recorded."""

@@ -165,6 +165,8 @@ def sets_of_others(codes: Iterable[CodeType]) -> bool:
 
 
 def _is_fixed(value: Any) -> bool:
+    if isinstance(value, FunctionType) and vars(value):  # of a function attributes alone
+        return False
     return (_of_this(value) and not isinstance(value, Sifted)) or isinstance(value, _UNCHANGED)
 
 
