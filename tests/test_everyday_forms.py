@@ -92,6 +92,20 @@ READ_OTHERWISE = [  # of which Python sees each element
     "T = sorted(['a', 'b'], key=lambda t: {'a': g.F, 'b': 3.0}[t])\ny = (T[0] == 'a') * g.a",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\nother = fit\nif g.a > 1:\n    other.append(1.0)\ny = len(fit) * 1.0",
 ]
+MATRIX = "K = np.array([[2.0, g.F, 1.0], [g.F, 5.0, 2.0], [1.0, 2.0, 9.0]])\nfree = [i for i in range(3) if i != g.k]\n"
+LOOKED = [  # of which Python sees the places, or which of the cases it is
+    MATRIX + "y = np.linalg.solve(K[np.ix_(free, free)], [1.0, g.a])",
+    MATRIX + "u = np.zeros(3)\nu[free] = np.array([g.F, g.a])\ny = u",
+    MATRIX + "y = K[free][:, free].ravel()",
+    MATRIX + "free = np.arange(3) != g.k\ny = K[np.ix_(free, free)].ravel()",
+    MATRIX + "y = K[np.setdiff1d(np.arange(3), [g.k])].ravel()",
+    MATRIX + "y = np.take(x, free) * g.a",
+    "match [v for v in (g.k, 3) if v > 1]:\n    case [a, b]:\n        y = a + b * g.F\n    case _:\n        y = 1",
+    (
+        "from typing import NamedTuple\nclass Load(NamedTuple):\n    F: float\n    k: int\nmatch Load(g.F, g.k):\n"
+        "    case Load(F=F, k=2):\n        y = F\n    case (F, _):\n        y = 2 * F"
+    ),
+]
 CHOSEN = [
     "y = {0: 1.0, 2: 2.0}.get(g.k, g.F) * g.a",
     "y = {0: 1.0, 2: 2.0}.get(round(g.F), 7.0) * g.a + {'a': 1.0}.get('b', g.F)",
@@ -368,6 +382,18 @@ def test_a_function_that_is_chosen_is_followed(lines: str, tmp_path: Path) -> No
 def test_a_list_of_those_that_are_kept_is_never_stale(lines: str, tmp_path: Path) -> None:
     """Whatever reads it but for its count, its first, its last, its sum and its extremes."""
     assert_never_stale(lines, tmp_path)
+
+
+@pytest.mark.parametrize("lines", LOOKED)
+def test_places_and_cases_are_followed_while_they_are_the_same(lines: str, tmp_path: Path) -> None:
+    """Those of a list that is kept by conditions, and what a tuple with names is compared with."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    for given in ({"F": 3.25}, {"F": 1.75, "a": 1.5}):
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    assert np.isnan(value_of(recording, "result", {"k": 1})).all()
 
 
 @pytest.mark.office

@@ -139,8 +139,8 @@ def _joined(f: Callable[..., Any]) -> Callable[..., Any]:
 def _seen(f: Callable[..., Any]) -> Callable[..., Any]:
     """Function that finds positions: they are those of the present numbers, and a guard tells when they change."""
 
-    def operation(graph: Graph, x: Any, *args: Any, **kwargs: Any) -> Any:
-        return f(lift(graph, x).seen(), *args, **kwargs)
+    def operation(graph: Graph, *args: Any, **kwargs: Any) -> Any:
+        return f(*(lift(graph, x).seen() if has_quantity(x) else x for x in args), **kwargs)
 
     return operation
 
@@ -366,7 +366,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     ),
     **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack)},
     np.block: blocks, np.unravel_index: place_of,
-    **{f: _seen(f) for f in (np.argwhere, np.unique)},
+    **{f: _seen(f) for f in (np.argwhere, np.unique, np.ix_, np.setdiff1d, np.union1d, np.intersect1d)},
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
         np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,

@@ -1,7 +1,7 @@
 """The operations of a recording in numpy: what their numbers are, and how elements are moved and reduced."""
 
 import pickle
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from operator import getitem
@@ -134,6 +134,13 @@ class Along(NamedTuple):
         if self.keepdims:
             return axis if axis != reduced else None
         return axis if axis > reduced else axis - 1
+
+
+def regrouped(value: Any, parts: Iterable[Any]) -> Any:
+    """Parts in a list, or in a tuple with the names of ``value``: Python's own, and no list of the recording's."""
+    if isinstance(value, list):
+        return [*parts]
+    return value._make(parts) if hasattr(value, "_make") else tuple(parts)
 
 
 def _every(moved: Moved, axes: int) -> tuple[Any, ...] | None:

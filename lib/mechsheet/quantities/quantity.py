@@ -17,7 +17,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from mechsheet.quantities.graph import Graph, Label, NotRecorded
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.operations import OF_TRUTH, Moved, Values
+from mechsheet.quantities.operations import OF_TRUTH, Moved, Values, regrouped
 from mechsheet.units import UNKNOWN, Constant
 from mechsheet.worksheet import numbers
 
@@ -362,7 +362,7 @@ def plain(value: Any) -> Any:
     if isinstance(value, Quantity):
         return value.seen() if value.ndim or value.re.value.dtype == bool else value.__index__()
     if isinstance(value, list | tuple):
-        return type(value)(plain(v) for v in value)
+        return regrouped(value, map(plain, value))
     if isinstance(value, slice):
         return slice(*(plain(v) for v in (value.start, value.stop, value.step)))
     return value

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from mechsheet.quantities.arithmetic import choice, is_whole
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.node import Node
+from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
@@ -280,7 +281,7 @@ def looked_at(value: Any) -> Any:
     if isinstance(value, Written) and not current.get().draws:
         return str(value)
     if isinstance(value, tuple | list) and any(isinstance(part, Written) for part in value):
-        return type(value)(map(looked_at, value))
+        return regrouped(value, map(looked_at, value))
     return value
 
 

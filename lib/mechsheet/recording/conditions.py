@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import elementwise
+from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.quantity import Quantity, has_quantity
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
@@ -66,7 +67,7 @@ def member(value: Any, several: Any) -> Any:
 def matched(value: Any) -> Any:
     """A value that is compared with True and False themselves, which no quantity is."""
     if isinstance(value, tuple | list) and has_quantity(value):
-        return type(value)(map(matched, value))
+        return regrouped(value, map(matched, value))
     return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
 
 

@@ -13,6 +13,7 @@ from mechsheet import units
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.lines import Solved, Told
 from mechsheet.quantities.node import Block, Node, bottom_up
+from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.readers import derived
 from mechsheet.worksheet.find import Found
@@ -59,7 +60,7 @@ def now(x: Any) -> Any:
     """Present numbers."""
     if isinstance(x, Quantity):
         return x.value
-    return type(x)(map(now, x)) if isinstance(x, tuple | list) and has_quantity(x) else x
+    return regrouped(x, map(now, x)) if isinstance(x, tuple | list) and has_quantity(x) else x
 
 
 def listed(graph: Graph, values: Any) -> Any:
