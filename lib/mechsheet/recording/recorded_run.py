@@ -21,7 +21,7 @@ from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
 from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
-from mechsheet.recording import exactly, showing, statement
+from mechsheet.recording import exactly, setting_up, showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.given import given
 from mechsheet.recording.in_place import OTHER_NAME
@@ -54,7 +54,7 @@ class Run(OfPositions):
         self.sheet, self.namespace, self.asked = sheet, namespace, beforehand(g)
         self.recording.sections = list(dict.fromkeys(cell.section for cell in sheet.cells))
         sheet.begun.again()
-        self.names: dict[str, Any] = shared(sheet.common) | self.asked
+        self.names: dict[str, Any] = shared(sheet.common)
         self.listed: dict[str, Any] = {}  # lists of lines, each as one quantity
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
@@ -64,8 +64,8 @@ class Run(OfPositions):
         self.rebound: Sequence[Formula] = ()  # lines of the present cell whose names others bind anew
         self.constants = of_setup(sheet)  # its lines that end in a unit
         self.facts = partial(statement.facts, path=sheet.path, exact=graph.unmoved is not None)
-        for line in sheet.defining() if graph.unmoved else sheet.setup:
-            self.set_up(line)
+        self.set_up()
+        self.names = self.names | self.asked  # which functions of the setup do not read
         self.showing = showing.functions(sheet)
         more = showing.without_name(sheet, {"g", *namespace}, self.showing) if unnamed else []
         needs = chain.from_iterable(sorted(cell.needs) for cell in more)
@@ -311,16 +311,20 @@ class Run(OfPositions):
         here = (row for row in self.rebound if row.name == name and row.expression.lineno >= self.graph.line)
         return next(here, None) or self.lines.get(name)
 
-    def set_up(self, line: ast.stmt) -> None:
-        """Run a statement of the setup again where it computes with units or declares one; else its numbers stay."""
-        facts, alone = self.facts(line), self.graph.unmoved
-        measured = "units" in facts.loaded or any(x in self.lines or x in self.constants for x in facts.touched)
-        if alone or measured or any(has_quantity(self.names.get(name)) for name in self.read(facts.loaded)):
+    def set_up(self) -> None:
+        """Run the setup again where it computes with units or declares one; else its numbers stay."""
+        alone, declared = self.graph.unmoved, self.lines.keys() | self.constants.keys()
+        measured = {"units", *(name for name, value in self.names.items() if has_quantity(value))}
+        reads = {line: self.read(self.facts(line).loaded) for line in setting_up.statements(self.sheet.whole)}
+        for line in self.sheet.defining() if alone else setting_up.again(reads, declared, measured):
+            facts = self.facts(line)
             try:
                 exec(facts.code, self.names)
                 self.measure(facts.touched, frozenset())
             except (Exception, NotRecorded):  # its numbers stay, of no known dimension
                 self.names |= {name: alone.unknown(self.graph, self.names[name]) for name in facts.touched if alone}
+        if not alone:
+            self.names |= setting_up.made_otherwise(self.graph, reads, self.names, self.sheet.common)
 
     def keep(
         self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
