@@ -27,6 +27,12 @@ NAMED = [
     'T = {}\nfor k, d in zip("ABC", (6, 8, 1)):\n    T[k] = d * mm',
     "class Store:\n    pass\n" + TABLE + 'S = Store()\nS.t = T\nS.t["B"] = 5 * mm',
 ]
+METHOD = "import math\nfrom dataclasses import dataclass\n@dataclass(frozen=True)\nclass Bar:\n    d: float\n"
+METHOD += "    def length(self):\n        return self.d * math.sqrt(self.d / mm) if self.d > 2 * mm else self.d\n"
+OF_CLASSES = [
+    METHOD + 'B = {"A": Bar(1 * mm), "B": Bar(4 * mm), "C": Bar(9 * mm)}\nT = {k: b.length() for k, b in B.items()}',
+    METHOD + 'T = {"A": 1 * mm, "B": Bar(4 * mm).length(), "C": Bar(9.0 * mm).length()}\nT["C"] *= 2',
+]
 PLACED = [
     "T = [6 * mm, 8 * mm, 1 * mm]\nT.sort()\nT.reverse()",
     "T = [6.0, 8.0, 1.0]\nT = [t * mm for t in T]",
@@ -51,7 +57,7 @@ def assert_followed(path: Path, setup: str, at: str) -> None:
         np.testing.assert_allclose(found, expected, rtol=1e-12, err_msg=kind)
 
 
-@pytest.mark.parametrize(("setup", "at"), [*((s, "kind") for s in NAMED), *((s, "k") for s in PLACED)])
+@pytest.mark.parametrize(("setup", "at"), [*((s, "kind") for s in [*NAMED, *OF_CLASSES]), *((s, "k") for s in PLACED)])
 def test_what_a_setup_changes_in_place_is_changed_in_a_recording(setup: str, at: str, tmp_path: Path) -> None:
     """It was run again as far as it binds names to units alone, and had numbers from before the change, or of twice."""
     assert_followed(tmp_path / "own.py", setup, at)
@@ -64,3 +70,17 @@ def test_what_a_recording_makes_otherwise_stays_the_worksheets_own(tmp_path: Pat
         'rows = iter(zip("ABC", (6, 8, 1)))\nT = {k: d * mm for k, d in rows}',
     ):
         assert_followed(tmp_path / "own.py", setup, "kind")
+
+
+def test_a_method_of_a_class_of_the_setup_is_followed(tmp_path: Path) -> None:
+    """With Python's own functions and by cases, as a function of the setup is."""
+    lines = 'L = Bar(g.F * mm / N).length()  # [mm] length\ncheck_1 = check("length", L, 9, "mm")'
+    path = tmp_path / "own.py"
+    path.write_text(written(IMPORTS + METHOD, GIVEN, lines), encoding="utf-8")
+    sheet = cells.load(path)
+    recording = record({**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}, sheet)
+    assert not recording.gaps and mismatches(path) == []
+    L = recording.values["L"].re
+    for F in (1.0, 2.0, 4.0):
+        found = numbers([L], {recording.inputs["F"]: F})[L]
+        np.testing.assert_allclose(found, by_cells(path, ["L"], F=F)["L"], rtol=1e-12)

@@ -312,10 +312,10 @@ class Run(OfPositions):
         return next(here, None) or self.lines.get(name)
 
     def set_up(self) -> None:
-        """Run the setup again where it computes with units or declares one; else its numbers stay."""
+        """Run the setup again where it computes with units or declares one, or has a class; else its numbers stay."""
         alone, declared = self.graph.unmoved, self.lines.keys() | self.constants.keys()
         measured = {"units", *(name for name, value in self.names.items() if has_quantity(value))}
-        reads = {line: self.read(self.facts(line).loaded) for line in setting_up.statements(self.sheet.whole)}
+        reads = {line: self.read(self.facts(line).loaded) for line in setting_up.statements(self.sheet)}
         for line in self.sheet.defining() if alone else setting_up.again(reads, declared, measured):
             facts = self.facts(line)
             try:

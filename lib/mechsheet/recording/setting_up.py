@@ -16,23 +16,32 @@ from mechsheet.recording.stage import is_array
 from mechsheet.recording.statement import touched
 from mechsheet.recording.substitutes import shared
 from mechsheet.units import UNKNOWN
+from mechsheet.worksheet.cells import Worksheet
 
-_STAYING = ast.Import | ast.ImportFrom | ast.ClassDef | ast.FunctionDef
+_STAYING = ast.Import | ast.ImportFrom | ast.FunctionDef  # of a function the recording has one of its own
 _NUMBERS = int | float | complex | np.ndarray | np.generic
 
 
-def statements(lines: Iterable[ast.stmt]) -> Iterator[ast.stmt]:
-    """All but imports, classes and functions."""
-    return (line for line in lines if not isinstance(line, _STAYING))
+def statements(sheet: Worksheet) -> Iterator[ast.stmt]:
+    """Those of a setup that are run again: no imports and functions, and of classes those that have functions alone."""
+    for line in sheet.whole:
+        if isinstance(line, ast.ClassDef):
+            own = sheet.common.get(line.name)
+            of_inputs = hasattr(own, "__inputs__") or hasattr(own, "__properties__")  # which are of this very class
+            if not of_inputs and any(isinstance(part, ast.FunctionDef) for part in line.body):
+                yield line
+        elif not isinstance(line, _STAYING):
+            yield line
 
 
 def again(reads: Mapping[ast.stmt, Set[str]], declared: Set[str], measured: Set[str]) -> list[ast.stmt]:
-    """Statements that declare a unit or compute with one, and all that make, change or read later what these do.
+    """Classes, statements with units or for them, and all that make, change or read later what these do.
 
     ``reads`` are the names that each of them reads, in their order; ``measured`` ones are units, or have some.
     """
     every = [(line, touched(line), read) for line, read in reads.items()]
-    chosen = {n for n, (_, names, read) in enumerate(every) if declared & {*names} or measured & read}
+    starts = (isinstance(line, ast.ClassDef) or declared & {*names} or measured & read for line, names, read in every)
+    chosen = {n for n, start in enumerate(starts) if start}
     known = -1
     while known < len(chosen):
         known, first = len(chosen), dict[str, int]()
@@ -70,7 +79,7 @@ def _unmeasured(graph: Graph, own: Any) -> Any:
 
 def _is_alike(made: Any, own: Any, seen: frozenset[int] = frozenset()) -> bool:
     """Whether numbers are the same but for rounding, down to lists, dictionaries and what an object holds."""
-    if made is own or id(own) in seen:
+    if made is own or id(own) in seen or isinstance(own, type):
         return True
     alike = partial(_is_alike, seen=seen | {id(own)})
     if isinstance(own, list | tuple):
@@ -79,7 +88,8 @@ def _is_alike(made: Any, own: Any, seen: frozenset[int] = frozenset()) -> bool:
         return isinstance(made, dict) and made.keys() == own.keys() and all(alike(made[key], own[key]) for key in own)
     if not isinstance(own, _NUMBERS):  # what stands for another kind is the recording's
         known = isinstance(own, str) and made == own
-        return known or type(made) is not type(own) or (hasattr(own, "__dict__") and alike(vars(made), vars(own)))
+        other = type(made).__qualname__ != type(own).__qualname__
+        return known or other or (hasattr(own, "__dict__") and alike(vars(made), vars(own)))
     number = np.asarray(made.value if isinstance(made, Quantity) else made)
     if not {number.dtype.kind, np.asarray(own).dtype.kind} <= {*"biufc"}:
         return np.array_equal(number, own)
