@@ -396,6 +396,21 @@ def test_places_and_cases_are_followed_while_they_are_the_same(lines: str, tmp_p
     assert np.isnan(value_of(recording, "result", {"k": 1})).all()
 
 
+@pytest.mark.parametrize("change", ["M += w * k", "M = M + w * k\n        L.append(w)"])
+def test_names_of_a_functions_own_are_not_those_of_another_cell(change: str, tmp_path: Path) -> None:
+    """What such a function changes was taken for the number of the same name, which was not there yet."""
+    lines = (
+        f"def moment(w):\n    M, L = 0.0, []\n    for k in (1.0, 2.0):\n        {change}\n    return M\ny = moment(g.F)"
+    )
+    others = ["M = 3.0 * g.F  # [-] number\nL = 2.0 * g.F  # [-] number"]
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * g.a  # [-] line", further=others)
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    for given in ELSEWHERE:
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+
+
 @pytest.mark.office
 def test_cells_select_as_the_worksheet_does(recalculated_all: Any, tmp_path: Path) -> None:
     """And set those for which a condition holds; what nothing is left for has no number."""

@@ -64,7 +64,7 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         frozenset(n.id for n in names if id(n) not in beside),
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
-        frozenset(_in_place(nodes)),
+        frozenset(_of_worksheet(nodes, _in_place(nodes))),
         frozenset(former(statement)),
         tuple(_columns(statement)),
     )
@@ -79,10 +79,7 @@ def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
             yield node
         case ast.Lambda(args) | ast.FunctionDef(args=args):
             outside = [*args.defaults, *filter(None, args.kw_defaults), *getattr(node, "decorator_list", ())]
-            body = node.body if isinstance(node, ast.FunctionDef) else []
-            given = {n.arg for n in ast.walk(args) if isinstance(n, ast.arg)}
-            shared = (n for part in body for n in source.nodes(part) if isinstance(n, ast.Global))
-            inner |= given.union(*map(bound, body)).difference(*(n.names for n in shared))
+            inner |= _local(node)
         case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
             outside = [node.generators[0].iter]
             inner |= {name for each in node.generators for name in bound(each.target)}
@@ -90,6 +87,24 @@ def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
         yield from _read(part, own)
     for part in ast.iter_child_nodes(node):
         yield from _read(part, inner)
+
+
+def _local(function: ast.Lambda | ast.FunctionDef) -> set[str]:
+    """Names of a function's own: its parameters, and what it binds but for what it calls the worksheet's."""
+    body = function.body if isinstance(function, ast.FunctionDef) else []
+    given = {n.arg for n in ast.walk(function.args) if isinstance(n, ast.arg)}
+    shared = (n for part in body for n in source.nodes(part) if isinstance(n, ast.Global))
+    return given.union(*map(bound, body)).difference(*(n.names for n in shared))
+
+
+def _of_worksheet(nodes: Iterable[ast.AST], found: Iterable[ast.Name]) -> Iterator[str]:
+    """Those of the names that are found among some nodes that are not a function's own."""
+    own = set[int]()
+    for function in nodes:
+        if isinstance(function, ast.Lambda | ast.FunctionDef):
+            local = _local(function)
+            own.update(id(n) for n in source.nodes(function) if isinstance(n, ast.Name) and n.id in local)
+    yield from (name.id for name in found if id(name) not in own)
 
 
 def _columns(statement: ast.stmt) -> Iterator[frozenset[str]]:
@@ -116,7 +131,8 @@ def _names(node: ast.expr) -> frozenset[str]:
 @lru_cache(maxsize=4096)
 def touched(statement: ast.stmt) -> tuple[str, ...]:
     """Names that a statement binds, or whose value it changes."""
-    return tuple(dict.fromkeys([*bound(statement), *_changed(source.nodes(statement))]))
+    nodes = source.nodes(statement)
+    return tuple(dict.fromkeys([*bound(statement), *_of_worksheet(nodes, _changed(nodes))]))
 
 
 @lru_cache(maxsize=4096)
@@ -220,26 +236,26 @@ def on_the_page(statement: ast.stmt) -> bool:
     return False
 
 
-def _changed(nodes: Sequence[ast.AST]) -> Iterator[str]:
+def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     """Names of what a statement may change in place: a list that something is appended to, an array's element."""
     for node in nodes:
         match node:
-            case ast.Call(ast.Attribute(ast.Name(name), "append" | "extend" | "insert" | "update" | "add")):
+            case ast.Call(ast.Attribute(ast.Name() as name, "append" | "extend" | "insert" | "update" | "add")):
                 yield name
     yield from _in_place(nodes)
 
 
-def _in_place(nodes: Iterable[ast.AST]) -> Iterator[str]:
+def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
     """Names whose values a statement changes in place where these are arrays."""
     for node in nodes:
         match node:
-            case ast.AugAssign(ast.Name(name)) | ast.Subscript(ast.Name(name), ctx=ast.Store()):
+            case ast.AugAssign(ast.Name() as name) | ast.Subscript(ast.Name() as name, ctx=ast.Store()):
                 yield name
-            case ast.Call(ast.Attribute(ast.Name(name), method)) if method in ARRANGING:
+            case ast.Call(ast.Attribute(ast.Name() as name, method)) if method in ARRANGING:
                 yield name
-            case ast.Call(ast.Attribute(_, function), [ast.Name(name), *_]) if function in FILLING:
+            case ast.Call(ast.Attribute(_, function), [ast.Name() as name, *_]) if function in FILLING:
                 yield name
-            case ast.keyword("out", ast.Name(name)):
+            case ast.keyword("out", ast.Name() as name):
                 yield name
 
 
