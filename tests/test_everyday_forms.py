@@ -442,6 +442,24 @@ TABLES: dict[str, Any] = {
 }
 
 
+@pytest.mark.office
+def test_cells_have_the_frequencies_of_a_chain_that_is_held_nowhere(recalculated_all: Any, tmp_path: Path) -> None:
+    """What rotations leave beside the diagonal is so small that LibreOffice has no number for its square."""
+    lines = "J = np.array([0.12, 0.03, 0.45])\nk = 1e4 * np.array([g.F, g.a])"
+    lines += "\nK = np.array([[k[0], -k[0], 0], [-k[0], k[0] + k[1], -k[1]], [0, -k[1], k[1]]])"
+    lines += "\ny = np.linalg.eigvalsh(K / np.sqrt(np.outer(J, J)))  # [-] squares"
+    sheet = own(tmp_path, f"{lines}\ntable_2 = table('2', 'Two', y)")
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("Own", names, {}))
+    given: list[dict[str, Any]] = [{}, {"F": 2.4, "a": 0.9}, {"F": 0.5}, {"F": 9.0}]
+    edited = [edit(path, each, tmp_path / f"{k}.xlsx") for k, each in enumerate(given)]
+    for each, book in zip(given, recalculated_all(edited), strict=True):
+        found = [row[0].value for row in book["2 Two"].iter_rows(5, 7)]
+        own_values = by_cells(sheet.path, ["y"], **each)["y"]
+        np.testing.assert_allclose(found, own_values, rtol=1e-12, atol=1e-9, err_msg=str(each))
+
+
 @pytest.mark.parametrize("table", TABLES)
 def test_a_row_of_the_worksheets_own_table_follows_the_option(table: str, tmp_path: Path) -> None:
     lines = f"row = {table}[g.kind]\nresult = np.atleast_1d({TABLES[table]}) * 1  # [-] line"

@@ -16,6 +16,7 @@ from mechsheet.quantities.quantity import Quantity, lift, moved
 
 _MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
 _OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
+_NONE = 1e-20  # of all elements together: no digit of an eigenvalue, and no number in cells once it is squared
 _SWEEPS = 5  # of Jacobi's rotations: the third one reaches the last digits
 _TOO_MANY = f"a system of more than {_MOST} linear equations"
 
@@ -194,10 +195,11 @@ def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> list[Any]:
     if UPLO == "L":
         a = [[a[max(i, j)][min(i, j)] for j in range(len(a))] for i in range(len(a))]
     pairs = list(combinations(range(len(a)), 2))
+    none = _NONE * reduce(operator.add, (absolute(a[i][j]) for i in range(len(a)) for j in range(i, len(a))))
     for p, q in pairs * (_SWEEPS if len(a) > 2 else 1):
         off, apart = a[p][q], a[q][q] - a[p][p]
         way = choice(graph, apart < 0, -2.0, 2.0) * off
-        turn = choice(graph, off == 0, 0.0, way / (absolute(apart) + np.hypot(apart, 2 * off)))
+        turn = choice(graph, absolute(off) <= none, 0.0, way / (absolute(apart) + np.hypot(apart, 2 * off)))
         c = 1 / np.sqrt(1 + turn**2)
         a[p][p], a[q][q] = a[p][p] - turn * off, a[q][q] + turn * off
         for r in {*range(len(a))} - {p, q}:
