@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import written_cells
 from as_script import as_script
@@ -78,11 +79,12 @@ def test_the_chosen_name_is_used_as_a_text(gears: Path, mode: str, names: list[s
         (lambda mode: getattr(np, mode), "attribute name must be string, not an option (str(..) of an option"),
         (lambda mode: "".join([mode]), "expected str instance, an option found (str(..) of an option"),
         (lambda mode: 2 * mode, "'int' and an option (an option is no number"),
+        (lambda mode: pd.Series([1.0, 2.0], ["low", "high"])[mode], "KeyError: 'high' (of an option a table of pandas"),
     ],
 )
 def test_what_takes_no_option_is_told_in_words(takes: Callable[[Chosen], object], said: str) -> None:
     """It said Chosen, and of what takes a text that an option is no number."""
-    with pytest.raises(TypeError) as raised:
+    with pytest.raises((TypeError, KeyError)) as raised:
         takes(Chosen(("low", "high"), 1, {}))
     assert said in mistakes.told(raised.value, "gears.py")
 

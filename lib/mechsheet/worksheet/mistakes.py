@@ -146,6 +146,7 @@ def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterat
 def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
     """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
     from mechsheet.worksheet.in_words import NOT_BOUND, in_words  # on use: as above
+    from mechsheet.worksheet.kinds import Chosen
 
     if isinstance(error, NameError) and error.name:
         called = as_written(error.name)
@@ -178,6 +179,8 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
     hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
+    if isinstance(error, KeyError) and any(isinstance(key, Chosen) for key in error.args):
+        hint = "of an option a table of pandas takes the text, str(..)"
     if hint == _SEVERAL and (name := _list(error, said, text)):
         done = "multiplied" if "multiply" in said else "computed"
         hint = f"{name} is a list: np.array([..]) is {done} element by element"
