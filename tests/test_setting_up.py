@@ -12,6 +12,7 @@ from own_worksheet import written
 from mechsheet.readers.numbers import numbers
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.recording.record import record
+from mechsheet.run.proving import proof_of
 from mechsheet.worksheet import cells
 
 IMPORTS = "import numpy as np\nfrom typing import Literal\nfrom mechsheet import ask, check, inputs, read\n"
@@ -84,3 +85,13 @@ def test_a_method_of_a_class_of_the_setup_is_followed(tmp_path: Path) -> None:
     for F in (1.0, 2.0, 4.0):
         found = numbers([L], {recording.inputs["F"]: F})[L]
         np.testing.assert_allclose(found, by_cells(path, ["L"], F=F)["L"], rtol=1e-12)
+
+
+def test_what_a_setup_appends_is_proved(tmp_path: Path) -> None:
+    """Of the setup that is run again for a proof statements without a name were left out, so it had two lengths."""
+    path = tmp_path / "own.py"
+    lines = 'M = T[2] * g.F  # [N*mm] moment\ncheck_1 = check("moment", M, 99, "N*mm")'
+    path.write_text(written(IMPORTS + "T = [6 * mm, 8 * mm]\nT.append(9 * mm)", GIVEN, lines), encoding="utf-8")
+    sheet = cells.load(path)
+    names = {**sheet.run(sheet.results, {"g": sheet.inputs()}), "__file__": sheet.path}
+    assert proof_of(names, sheet, record(names, sheet, whole=True, exact=True)).check().passed

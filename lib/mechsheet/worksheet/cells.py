@@ -57,7 +57,7 @@ class Worksheet:
 
     def defining(self) -> list[ast.stmt]:
         """Of its setup all but imports and the class of the inputs."""
-        apart, imports = getattr(declared_in(self.common), "__name__", ""), ast.Import | ast.ImportFrom | ast.Expr
+        apart, imports = getattr(declared_in(self.common), "__name__", ""), ast.Import | ast.ImportFrom
         return [line for line in self.whole if not isinstance(line, imports) and apart not in bound(line)]
 
     def run(self, want: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
