@@ -269,7 +269,7 @@ def test_the_scene_is_written_beside_a_worksheet_of_ones_own(tmp_path, monkeypat
         (["--vary=F=5..0", "--best=max p"], r"bounds of number F = 5..0 must be in order"),
         (["--vary=F=0..x", "--best=max p"], "number F = 'x' is no number"),
         (["--vary=G=0..5", "--best=max p"], "input G is unknown; nearest: "),
-        (["--vary=n=2..5", "--best=max p"], "n, which is a whole number"),
+        (["--vary=n=2..5", "--best=max p"], "varying positions n, which is a whole number"),
         (["--vary=F=0..5", "--best=max v"], "v is defined by no cell"),
         (["--vary=F=0..5", "--best=max t"], "t is complex; take t.real"),
         (["--vary=F=0..5", "--best=p"], "argument '--best=p' must be such as --best="),

@@ -139,7 +139,7 @@ class Problem:
             self.computed = [*dict.fromkeys(map(base, results))]
             sheet.needed(self.computed, ["g"])
             for name, ends in asked.vary.items():
-                continuous(self.fields, name, "cannot be had by")
+                continuous(self.fields, name, "cannot be sought by varying")
                 low, high = (self.fields[name].read(end) for end in ends)
                 if not low < high:
                     raise SheetError(f"bounds of {self.fields[name].says('..'.join(ends))} must be in order")
