@@ -173,7 +173,7 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     """Lines of the worksheet that has run whose units do not fit, each mistake where it arises.
 
     What depends on the inputs is recorded, and what declares a unit or is computed with one; of cells that import or
-    define classes beside it the assignments, as of a setup. A line whose meaning calls it an erratum is left as it is.
+    define classes what a recording runs again of a setup. A line whose meaning calls it an erratum is left as it is.
     While inputs are declared and not there, nothing is told.
     """
     given = beforehand(inputs_of(names))
@@ -189,9 +189,10 @@ def unfit(cells: Iterable[notebook.Cell], names: Mapping[str, Any]) -> Iterator[
     computed = by_inputs - of_setup - depending(ran, others)
     common = {name: value for name, value in names.items() if name not in computed}
     recorded = tuple(runnable(n, cell, computed) for n, cell in enumerate(ran) if cell.defs & (computed - {*given}))
-    assigned = tuple(line for n in setup for line in _lines(n, ran[n]) if isinstance(line, ast.Assign | ast.AnnAssign))
+    lines = tuple(line for n in setup for line in _lines(n, ran[n]))
+    assigned = tuple(line for line in lines if isinstance(line, ast.Assign | ast.AnnAssign))
     try:
-        found = dimensions.of_every_line(Worksheet("", recorded, common, "", assigned), names, known)
+        found = dimensions.of_every_line(Worksheet("", recorded, common, "", assigned, whole=lines), names, known)
     except Exception as error:
         yield Note("", f"units are not checked, as the worksheet cannot be recorded: {error}")
         return
