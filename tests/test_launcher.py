@@ -481,6 +481,17 @@ def test_an_environment_made_by_other_means_is_left_alone(project: Project) -> N
     assert own.exists() and not project.steps
 
 
+def test_an_environment_behind_a_link_is_left_alone(project: Project) -> None:
+    """It may be another clone's, with that one's mark in it."""
+    others = project.root.parent / "others"
+    others.mkdir()
+    (others / "mechsheet.installed").write_text("theirs dev")
+    (project.root / ".venv").symlink_to(others, target_is_directory=True)
+    with pytest.raises(SystemExit, match="made by other means"):
+        launcher.environment(project.root, "")
+    assert (others / "mechsheet.installed").read_text() == "theirs dev" and not project.steps
+
+
 def test_the_folder_looks_for_its_environment_and_the_installed_package_does_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -398,7 +398,8 @@ def environment(root: Path, extra: str) -> str:
     current = installed == fingerprint and python.exists()
     if current and has in (extra, "dev"):
         return str(python)
-    if folder.exists() and not mark.exists():
+    # Behind a link stands an environment that others may use: nothing is removed there.
+    if folder.exists() and not (mark.exists() and (current or not folder.is_symlink())):
         sys.exit(f"mechsheet: {folder} was made by other means: call mechsheet inside it, or remove it")
     try:
         if current:
