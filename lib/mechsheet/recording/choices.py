@@ -13,6 +13,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import none_like, trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.refused import compared, pointed, refused
@@ -111,7 +112,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
-            return made_like(x, parts)
+            return regrouped(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged_sketch(condition, x, y)
     if _are_written(x, y):
@@ -145,11 +146,6 @@ def _bound(value: Any, other: Any) -> Any:
     return _missing(other) if value is UNBOUND else value
 
 
-def made_like(row: tuple[Any, ...] | list[Any], parts: Iterable[Any]) -> Any:
-    """A tuple, a named one or a list of other parts."""
-    return getattr(type(row), "_make", type(row))(parts)
-
-
 def _are_written(x: Any, y: Any) -> bool:
     """Whether two texts: Python sees which one it is once it reads it."""
     return isinstance(x, str | Written) and isinstance(y, str | Written)
@@ -166,7 +162,7 @@ def _missing(value: Any) -> Any:
     if isinstance(value, str | Written):
         return _NOTHING
     if isinstance(value, tuple | list):
-        return made_like(value, map(_missing, value))
+        return regrouped(value, map(_missing, value))
     if isinstance(value, Row | Fields | Thing):
         return changed(_missing, value)
     if isinstance(value, dict):

@@ -7,14 +7,14 @@ import numpy as np
 
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up, free_of
-from mechsheet.quantities.operations import ELEMENTWISE
+from mechsheet.quantities.operations import ELEMENTWISE, regrouped
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.refused import each_row
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts, among
 from mechsheet.quantities.written import OneOf, Written
 from mechsheet.readers.replaced import replaced
-from mechsheet.recording.choices import made_like, way_may_change
+from mechsheet.recording.choices import way_may_change
 from mechsheet.worksheet.lists import Whole
 
 
@@ -51,7 +51,7 @@ class Together:
         self.parts = parts
 
     def __getitem__(self, row: Any) -> Any:
-        found = made_like(self.parts, [part[row] for part in self.parts])
+        found = regrouped(self.parts, [part[row] for part in self.parts])
         return Together(found) if isinstance(row, slice) or np.ndim(row) else found
 
 
@@ -101,7 +101,7 @@ def _in_their_form(value: Any, rows: dict[Node, Node], known: list[tuple[Any, An
             return source
     match value:
         case tuple() | list():
-            return Together(made_like(value, [_in_their_form(part, rows, known) for part in value]))
+            return Together(regrouped(value, [_in_their_form(part, rows, known) for part in value]))
         case Written((OneOf(at, texts, Quantity() as column, name),)):
             return Texts(name, column, texts, _column(at, rows))
         case Written() if (found := among(current.get(), value)) is not None:
@@ -157,7 +157,7 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
     if isinstance(source, Numbers):
         return source.of(_row(source.column, rows))
     if isinstance(source, Together):
-        return made_like(source.parts, [_row(part, rows) for part in source.parts])
+        return regrouped(source.parts, [_row(part, rows) for part in source.parts])
     parts = [source.graph.state(part) for part in source.whole()[0].parts]
     rows.update(zip(parts, source.whole().parts, strict=True))
     return Quantity(source.graph, *parts)
