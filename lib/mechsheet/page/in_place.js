@@ -203,7 +203,7 @@
     typing();
   });
 
-  const inTurn = (act) => (turn = turn.then(act));
+  const inTurn = (act) => (turn = turn.then(act).catch(reportError)); // the next one has its turn all the same
 
   // Nothing is typed elsewhere until it is known what is in the file: it would be lost to the file that comes.
   async function change(what) {

@@ -191,7 +191,7 @@ def _written(x: Any) -> str:
 def of(error: BaseException) -> Failed:
     """Where an error was raised: the innermost part that is no library's.
 
-    None where its text cannot be read, and where it was raised in this package: by what that makes of its parts.
+    Without a part where its text cannot be read, and where this package raised it: by what that makes of its parts.
     """
     places = list[TracebackType]()
     for each in _walked(error):
