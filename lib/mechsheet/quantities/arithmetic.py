@@ -125,6 +125,11 @@ def whole(x: Quantity) -> Quantity:
     return x
 
 
+def as_whole(made: Quantity, each: Quantity) -> Quantity:
+    """What Python's own sum, least or greatest of some numbers is: whole where each of them is."""
+    return whole(made) if is_whole(each) else made
+
+
 def trunc(x: Quantity) -> Any:
     if x.dtype == bool:
         return choice(x.graph, x, 1, 0)

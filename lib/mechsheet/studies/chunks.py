@@ -381,7 +381,8 @@ def _by_variant(value: Any, count: int) -> NDArray[Any]:
 
 def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     """A wanted number or field, or a part of it; TypeError, which no variant takes for its reason, for all else."""
-    if np.asarray(names.get(base(name))).dtype.kind not in "iufc":
+    own = names.get(base(name))
+    if np.asarray(float(own) if type(own) is int else own).dtype.kind not in "iufc":  # of 20 digits an object
         raise TypeError(f"{name} is no number and cannot be swept")
     return wanted(name, names)
 

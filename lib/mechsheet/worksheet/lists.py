@@ -272,7 +272,7 @@ class Whole:
     than Python's, for columns may have any.
     """
 
-    __row__: ClassVar[type]
+    __row__: ClassVar[Any]  # the class of one row, with its ``__properties__``
 
     def __len__(self) -> int:
         return len(first_column(self))
@@ -281,6 +281,8 @@ class Whole:
         parts = {name: column[key] for name, column in vars(self).items()}
         alone = not any(getattr(part, "ndim", 0) for part in parts.values())  # a text has none
         found: Any = object.__new__(self.__row__ if alone else type(self))
+        if alone:  # teeth of a row are counted, ``range(stage.z)``
+            parts |= {field.name: field.held(parts) for field in self.__row__.__properties__ if field.counted}
         for name, part in parts.items():
             object.__setattr__(found, name, part)
         return found
