@@ -31,9 +31,11 @@ from mechsheet.recording.by_turn import by_turn
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
+    Comprehended,
     as_choice,
     by_percent,
     call,
+    deleted,
     formatted,
     gone_through,
     index,
@@ -309,7 +311,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def _unbound(self, names: list[str], node: ast.stmt) -> list[ast.stmt]:
         """Delete names that are not bound; a turn of a loop gives back what they stand for."""
-        return [] if self.turns else [_deleted(name, node) for name in names]
+        return [] if self.turns else [deleted(name, node) for name in names]
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         """Where a way of a function ends early, the rest of the function is the other way."""
@@ -362,11 +364,6 @@ def _lines(lines: Any) -> list[ast.stmt]:
     return [*lines] if isinstance(lines, list | tuple) else [lines]
 
 
-def _deleted(name: str, node: ast.stmt) -> ast.stmt:
-    test = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
-    return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)
-
-
 def _may_be_rewritten(part: ast.AST) -> bool:
     """Whether a part of a statement is of a kind that is rewritten, as it is in few formulas."""
     if isinstance(part, ast.Call):
@@ -374,7 +371,7 @@ def _may_be_rewritten(part: ast.AST) -> bool:
             case ast.Attribute(attr=name):
                 return name in ("get", "index", "join", "format") or own_arrays.is_outside(part)
             case ast.Name(name):
-                return name in _NAMES or name in OF_KEPT or name in ("Check", "str")
+                return name in _NAMES or name in OF_KEPT or name in ("Check", "str", "map", "filter", "list")
         return False
     if isinstance(part, ast.BinOp):
         return by_percent(part) is not None
@@ -416,7 +413,8 @@ def compiled(statement: ast.stmt, path: str, exact: bool = False) -> CodeType:
     """
     if not (exact or any(map(_may_be_rewritten, source.nodes(statement)))):
         return compile(ast.Module([statement], []), path, "exec")
-    tree: Any = _Rewriting().visit(ast.Module([pickle.loads(pickle.dumps(statement))], []))
+    own = ast.Module([pickle.loads(pickle.dumps(statement))], [])
+    tree: Any = _Rewriting().visit(Comprehended().visit(own))
     return compile(ast.fix_missing_locations(exactly.Following().visit(tree) if exact else tree), path, "exec")
 
 
