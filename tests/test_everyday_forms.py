@@ -263,6 +263,19 @@ SELECTED = [
     TABLE + "y = T[T[:, 0] > g.F / 1.5][:, 1].min() * g.a + T[T[:, 0] == g.k - 1][0, 1]",
     "v = np.where(x > g.F, np.nan, x)\ny = np.nanmax(v[x > g.a / 9]) + np.isnan(v[x > 1]).sum()",
 ]
+GRID = "A = np.outer(np.arange(1, 6), [1.0, g.F, 3.0, g.F**2])\n"
+PICKED = [  # columns of a table, and elements by their places
+    GRID + "y = A[:, g.k] * g.a + A[:, -g.k]",
+    GRID + "y = A[1:4, g.k] + A[:, g.k][:, None][::2, 0] + A[g.k, g.k]",
+    GRID + "y = np.interp(g.F, [1, 2, 3, 4, 5], A[:, g.k])",
+    GRID + "y = A[:, np.argmax(A[0])] + A[:, np.searchsorted([1.0, 2.0, 3.0], g.F)]",
+    GRID + "y = A.reshape(5, 2, 2)[:, 1, g.k - 2] * A.reshape(5, 2, 2)[:, g.k - 2, :].sum(axis=1)",
+    GRID + "A[:, g.k] += g.a\ny = A.sum(axis=0)",
+    GRID + "y = np.take(A, g.k, axis=1) + np.take(A, g.k) * A.take([g.k, 0])[1] + A.take(g.k, axis=0)[1]",
+    GRID + "y = np.take(A, [[0, 3], [2, 1]], axis=1)[2].ravel() * np.take(A[0], g.k)",
+    "y = np.choose(g.k, [1.0, g.a, g.F, 3 * g.F]) + np.choose([0, 2, 1], [[1.0, g.a, 2], [g.F, 3, g.F], [7, g.a, 9]])",
+    "y = np.angle(np.exp(1j * x), deg=True) + np.angle(g.F - 2.6, deg=True)",
+]
 LAW = """def f(t):
     out, low = np.zeros_like(t), t < g.F / 2
     out[low], out[~low] = t[low] ** 2 * g.a, np.where(t[~low] > 3, 3.0, np.sqrt(t[~low] - g.F / 2))
@@ -354,6 +367,7 @@ GUARDED = [  # where other inputs change what there is
         *SEARCHED,
         *WALKED,
         *SELECTED,
+        *PICKED,
         *PLACED,
         *AROUND,
         *GUARDED,

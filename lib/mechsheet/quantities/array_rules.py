@@ -120,6 +120,21 @@ def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = 
     return moved(there.reduced("sum", -1), -1, axis)
 
 
+def taken(graph: Graph, x: Any, places: Any, axis: int | None = None) -> Any:
+    """numpy's take: elements by their places along an axis, or else among all."""
+    x, places = lift(graph, x), lift(graph, places)
+    if axis is None:
+        x, axis = x.reshape(-1), 0
+    found, new = moved(x, axis, 0)[places], range(places.ndim)
+    return moved(found, [*new], [axis % x.ndim + k for k in new])
+
+
+def taken_of(graph: Graph, which: Any, values: Any) -> Any:
+    """numpy's choose: of several values the one of a number."""
+    which = lift(graph, which)
+    return np.select([which == k for k in range(len(values))], [*values], np.nan)
+
+
 def cross(graph: Graph, a: Any, b: Any, axis: int = -1) -> Any:
     """numpy's cross of vectors with three components."""
     a, b = (moved(lift(graph, v), axis, -1) for v in (a, b))

@@ -22,6 +22,8 @@ from mechsheet.quantities.array_rules import (
     polynomial_fit,
     searched,
     summed,
+    taken,
+    taken_of,
     unwrapped,
 )
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded
@@ -311,7 +313,8 @@ def _real(graph: Graph, x: Any) -> Any:
 
 
 _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
-    np.where: _chosen, np.angle: lambda graph, x: angle(lift(graph, x)), np.real: _real,
+    np.where: _chosen, np.real: _real, np.take: taken, np.choose: taken_of,
+    np.angle: lambda graph, x, deg=False: np.degrees(angle(lift(graph, x))) if deg else angle(lift(graph, x)),
     np.imag: lambda graph, x: lift(graph, x).imag, np.shape: lambda graph, x: lift(graph, x).shape,
     np.ndim: lambda graph, x: lift(graph, x).ndim, np.size: lambda graph, x: lift(graph, x).size,
     np.iscomplexobj: lambda graph, x: lift(graph, x).im is not None, np.copy: lambda graph, x: copy(lift(graph, x)),
@@ -370,11 +373,10 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     **{f: _rearranged(f) for f in (
         np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
         np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,
-        np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis, np.take,
+        np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis,
     )},
 }  # fmt: skip
 FUNCTIONS.update(_OF_FUNCTIONS)
-FUNCTIONS[np.take] = lambda graph, x, k, axis=0: moved(moved(lift(graph, x), axis, 0)[k], 0, axis)
 
 
 def counted(graph: Graph, count: Any, kind: type = int) -> Quantity:

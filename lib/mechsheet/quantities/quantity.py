@@ -239,8 +239,10 @@ class Quantity(NDArrayOperatorsMixin):
         first, *rest = key if isinstance(key, tuple) and key else (key,)
         if isinstance(first, Quantity) and first.re.value.dtype != bool and first.im is None and self.ndim:
             return self._at(first)[(slice(None),) * first.ndim + tuple(rest)] if rest else self._at(first)
-        if rest and isinstance(first, int) and any(isinstance(k, Quantity) and not k.ndim for k in rest):
-            return self[first][tuple(rest)]
+        places = [k for k in rest if not isinstance(k, int | slice | None)]
+        if isinstance(first, int | slice) and places and all(isinstance(k, Quantity) and not k.ndim for k in places):
+            part, beside = self[first], tuple(rest)
+            return part[beside] if isinstance(first, int) else moved(moved(part, 0, -1)[beside], -1, 0)
         return self.rearranged(getitem, plain(key))
 
     def _at(self, position: "Quantity") -> "Quantity":
@@ -251,9 +253,8 @@ class Quantity(NDArrayOperatorsMixin):
             return self.whole().each(lambda node: self.graph.at(node, start.re))
         sizes = [operator_index(size) for size in inner]
         rest = np.arange(prod(sizes)).reshape(sizes)
-        inside = (start >= 0) & (start < count)
-        flat: Any = np.where(inside, start, np.nan)[(..., *(None,) * len(inner))] * rest.size + rest
-        rows = self.whole().each(lambda node: self.graph.at(node, flat.re))
+        flat: Any = np.where((start >= 0) & (start < count), start, np.nan)[(..., *(None,) * len(inner))] * rest.size
+        rows = self.whole().each(lambda node: self.graph.at(node, (flat + rest).re))
         rows.base = None if position.ndim else self
         return rows
 
@@ -263,8 +264,7 @@ class Quantity(NDArrayOperatorsMixin):
         return self.rearranged(np.transpose)
 
     def conjugate(self) -> "Quantity":
-        conjugated: Quantity = UFUNCS[np.conjugate](self)
-        return conjugated
+        return UFUNCS[np.conjugate](self)
 
     conj = conjugate
 
