@@ -333,6 +333,20 @@ AROUND = [  # lists and dictionaries around a function, whose elements it sets
         "    return v\ny = outer()"
     ),
 ]
+APPENDED = [  # to the same lists whatever a condition says
+    "T = []\nfor v in (1, 2.0, 3):\n    if v > g.F:\n        T.append(g.a)\n    else:\n        T.append(v)\ny = sum(T)",
+    (
+        "T, N = [0.0], []\nfor v in (1.0, 2.0, 3.0):\n    if v > g.F:\n        w = g.a\n        T.append(T[-1] + w)\n"
+        "        N.append('much')\n    elif v > g.a:\n        T.append(v)\n        N.append('some')\n    else:\n"
+        "        T.append(T[-1])\n        N.append('none')\ny = np.array(T) * len([n for n in N if n == 'some'])"
+    ),
+    (
+        "def f(rows):\n    out = []\n    for v, w in rows:\n        if v < g.F:\n            if w > g.a:\n"
+        "                out.append((v, w))\n            else:\n                out.append((w, g.a))\n        else:\n"
+        "            out.append((0.0, v))\n    return out\ny = [p * 3 + q for p, q in f([(1.0, 2.0), (3.0, 1.0)])]"
+    ),
+    "T = [g.a]\nif g.F > 3:\n    T.append(g.F)\nelse:\n    T.append(2.0)\ny = T[1] * T[0] + len(T)",
+]
 GUARDED = [  # where other inputs change what there is
     "T = [('M6', 6), ('M10', 10)]\nname, d = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(name)",
     "T = [('M6', 6), ('M10', 10)]\nrow = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * len(row[0])",
@@ -350,6 +364,8 @@ GUARDED = [  # where other inputs change what there is
     "y = x[x > g.F][1:].sum() + g.a",
     "T = zip([1, 2, 3, 5, 8], 'abcde')\nfor d, _ in T:\n    if d > g.F:\n        break\ny = next(T)[0] * g.a",
     "K = np.zeros(2)\ndef f(v):\n    K[0] = v\n    return v\ny = {2: f, 3: lambda v: 2 * v}[g.k](g.F) + K",
+    "T, U = [], [1.0]\nif g.F > 3:\n    T.append(g.F)\nelse:\n    U.append(g.a)\ny = len(T) * 3 + sum(U)",
+    "T = [g.a]\nif g.F > 3:\n    T.append(2.0)\n    v = sum(T)\nelse:\n    T.append(1.0)\n    v = g.F\ny = v + T[1]",
     "row = {'R': g.F, 'n': 'x'} if g.F > 3 else {'R': 2.0, 'n': 'yy'}\ny = row['R'] * len(row['n'])",
 ]
 
@@ -370,6 +386,7 @@ GUARDED = [  # where other inputs change what there is
         *PICKED,
         *PLACED,
         *AROUND,
+        *APPENDED,
         *GUARDED,
     ],
 )

@@ -27,6 +27,7 @@ from mechsheet.recording import (
     raised,
     rows_checked,
 )
+from mechsheet.recording.appended_alike import appended_alike
 from mechsheet.recording.by_turn import by_turn
 from mechsheet.recording.forms import (
     OF_KEPT,
@@ -55,6 +56,7 @@ from mechsheet.recording.forms import (
 )
 from mechsheet.recording.summed import as_sums
 from mechsheet.recording.ways import (
+    deleted,
     ends,
     is_of_the_whole,
     looking,
@@ -241,6 +243,8 @@ class _Rewriting(ast.NodeTransformer):
         """A statement whose ways only bind names gives the names the values of both ways."""
         if (parts := set_parts(node)) and all(self.binds(ast.unparse(part.value)) for part, _ in parts):
             return [line for part in parts for line in self._put_where(node, *part)]
+        if lines := appended_alike(node):
+            return [new for line in lines for new in _lines(self.visit(line))]
         ways = node.body, node.orelse
         if not all(only_bind(way, ast.Raise) for way in ways):
             self.generic_visit(node)

@@ -82,6 +82,12 @@ def unbound_left(node: ast.For) -> ast.stmt:
     return ast.copy_location(ast.Delete([ast.Name(f"recorded left {node.lineno}", ast.Del())]), node)
 
 
+def deleted(name: str, node: ast.stmt) -> ast.stmt:
+    """A name that no way has bound is none."""
+    test = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
+    return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)
+
+
 def looking(node: ast.For, otherwise: list[ast.stmt]) -> Iterator[ast.stmt]:
     """A loop that may be left, as one that tells whether it was, and what is done ``otherwise``."""
     left = f"recorded left {node.lineno}"
