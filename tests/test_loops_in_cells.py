@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from openpyxl import load_workbook
 from own_worksheet import own
+from test_recalculation import MADE, computed, edit, lines, verdicts
 from typed_workbook import typed
 
 from mechsheet import evaluate
@@ -67,3 +68,28 @@ def test_loops_are_followed_while_they_end_within_the_turns_of_the_cells(
         np.testing.assert_allclose(shown[0], expected["single"], rtol=1e-10)
         np.testing.assert_allclose(shown[1], expected["field"], rtol=1e-10)
         assert (checks["root"], made) == ("PASS", "PASS")
+
+
+BRAKED = """v, way, t = 10 * g.F, 0.0, 0.0
+while v > 0:
+    w = v - 9.81 * g.a * 0.1
+    way, t, v = way + 0.05 * (v + w), t + 0.1, w
+t_0 = t * 1.0  # [s] time
+s_0 = way * 1.0  # [m] way"""
+
+
+def test_lines_alone_tell_that_cells_take_too_few_turns(
+    recalculated_all: Callable[[list[Path]], list[Any]], tmp_path: Path
+) -> None:
+    """Of a loop behind no table or check, no number was shown, and all was said to be made for these inputs."""
+    sheet = own(tmp_path, "y = g.F * 1.0  # [-] number", further=[BRAKED])
+    book = computed(Path(sheet.path), tmp_path, {})
+    values = [3.25, 250.0]
+    paths = [edit(book, {"F": F}, tmp_path / f"{n}.xlsx") for n, F in enumerate(values)]
+    known, unknown = recalculated_all(paths)
+    found = {name: numbers for (_, name), (_, numbers) in lines(known).items()}
+    own_values = evaluate(sheet.path, ["t_0", "s_0"], F=3.25)
+    np.testing.assert_allclose([*found["t_0"], *found["s_0"]], [own_values["t_0"], own_values["s_0"]], rtol=1e-10)
+    lost = {name: numbers for (_, name), (_, numbers) in lines(unknown).items()}
+    assert (lost["t_0"], lost["s_0"]) == (["#N/A"], ["#N/A"])
+    assert (verdicts(known)[MADE], verdicts(unknown)[MADE]) == ("PASS", "FAIL")

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.quantities.lines import Line
-from mechsheet.quantities.node import conditions
+from mechsheet.quantities.node import bottom_up, conditions
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording import statement
 from mechsheet.recording.recorded_run import Run
@@ -34,7 +34,8 @@ def add_lines(run: Run) -> None:
     for cell in sorted(behind, key=run.sheet.cells.index):
         for name in _bound(cell):
             _note(run, cell, name)
-    every = (line.node for lines in recording.lines.values() for line in lines if line.text)
+    every = [line.node for lines in recording.lines.values() for line in lines if line.text]
+    every += [part.args[2] for part in bottom_up(every, ()) if part.op == "iterated"]  # by the turns that cells take
     guards = guards.union(*(conditions(node, run.chosen) for node in every))  # not those of what cells draw
     kept = {h: guard for h, guard in recording.guards.items() if h in guards or guard.rows or guard.lengths}
     recording.guards = kept
