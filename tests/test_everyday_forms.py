@@ -13,7 +13,7 @@ import pytest
 from by_cells import by_cells
 from never_stale import assert_never_stale
 from own_worksheet import ELSEWHERE, own, recorded, value_of
-from test_recalculation import edit
+from test_recalculation import MADE, edit, verdicts
 
 from mechsheet import evaluate
 from mechsheet.quantities.written import Written
@@ -477,6 +477,29 @@ TABLES: dict[str, Any] = {
     "{'a': np.array([1.0, 2.0]), 'b': np.array([3.0, 4.0])}": "row * g.F",
     "{'a': np.poly1d([1.0, 2.0]), 'b': np.poly1d([2.0, 3.0, 1.0])}": "row(g.F)",
 }
+
+
+@pytest.mark.office
+def test_cells_count_the_rows_of_a_condition_that_rests_on_rows(recalculated_all: Any, tmp_path: Path) -> None:
+    """They are numbered themselves: the numbers had waited for the count, which rests on them, and no cell had any."""
+    lines = "sel = x > g.F\nz = np.ones(np.count_nonzero(sel)) * g.a  # [-] as many\nw = x[sel] + z  # [-] these"
+    sheet = own(tmp_path, f"{lines}\ntable_2 = table('2', 'These', z, w)")
+    names = sheet.run(sheet.results, {"g": sheet.inputs()})
+    path = tmp_path / "own.xlsx"
+    path.write_bytes(report.workbook("", {**names, "__file__": sheet.path}, {}))
+    scenes: list[dict[str, Any]] = [{}, {"a": 1.5, "F": 2.0}, {"n": 6}, {"n": 3}]
+    paths = [edit(path, each, tmp_path / f"{n}.xlsx") for n, each in enumerate(scenes)]
+    for each, book in zip(scenes, recalculated_all(paths), strict=True):
+        assert not any(
+            str(cell.value).startswith("Err") for s in book.worksheets for row in s.iter_rows() for cell in row
+        )
+        shown = [[cell.value for cell in book["2 These"][letter][4:]] for letter in "AB"]
+        numbers = by_cells(sheet.path, ["z", "w"], **each)
+        if "n" in each:
+            assert {x for column in shown for x in column} == {"#N/A"}
+        else:
+            np.testing.assert_allclose(shown, [numbers["z"], numbers["w"]], rtol=1e-12)
+        assert verdicts(book)[MADE] == ("FAIL" if "n" in each else "PASS")
 
 
 @pytest.mark.office

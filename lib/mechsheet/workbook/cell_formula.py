@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
@@ -47,30 +47,34 @@ _FAILS = {"sqrt", "asin", "acos", "atan2", "log", "div", "pow", "mod", "tan", "a
 class CellFormulas:
     """Formulas of quantities, some of which stand at a place of the workbook: there a formula refers to them.
 
-    ``first`` is the row of the first number of every column, ``counted`` the condition under which there are as many
-    rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of found values, or the
-    searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is found. Where one that
-    is ``lost`` has an error value, or wherever it would be another number, it has the exported one. What is no number
-    is #N/A. Of ``finite`` ones no number is infinite.
+    ``first`` is the row of the first number of every column, ``counted`` the conditions, in their order, under which
+    there are as many rows as columns have: no row has a number of another one's; ``inverse`` are the closed forms of
+    found values, or the searches for the ``searched`` ones, ``sure`` the conditions under which those are all that is
+    found. Where one that is ``lost`` has an error value, or wherever it would be another number, it has the exported
+    one. What is no number is #N/A. Of ``finite`` ones no number is infinite.
     """
 
     def __init__(
         self,
         places: Mapping[Node, Place],
         first: int = 0,
-        counted: str = "",
+        counted: Sequence[Node] = (),
         inverse: Mapping[Node, Node | None] = MappingProxyType({}),
         searched: Container[Node] = (),
         sure: Mapping[Node, Node] = MappingProxyType({}),
         lost: Mapping[Node, bool] = MappingProxyType({}),
         finite: bool = False,
     ) -> None:
-        self.places, self.first, self.counted, self.inverse, self.searched = places, first, counted, inverse, searched
+        self.places, self.first, self.inverse, self.searched = places, first, inverse, searched
         self.sure, self.lost, self.finite = sure, lost, finite
         self._inputs: dict[Node, tuple[Node, ...]] = {}
         self._endless: dict[Node, bool] = {}
         self._failing: dict[Node, bool] = {}
         self._fixed: dict[Node, frozenset[Node]] = {}
+        self._counted, self._known = list[str](), dict[Node, int]()
+        self._counted = [self.reference(holds)[1:] for holds in counted]
+        for k, holds in reversed([*enumerate(counted)]):
+            self._known |= dict.fromkeys(_under(holds), k)  # of those before, none rests on a quantity
 
     def formula(self, node: Node, factor: float = 1.0) -> str:
         """Formula of a single number over ``factor``, without its own name."""
@@ -188,16 +192,16 @@ class CellFormulas:
                 return self._element(node.args[1], _position(node.args[1].shape, node.shape, at), rows)
             case "like" | "sized":
                 whole = self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)
-                return whole if node.args[0].stretches else self._while_counted(*whole)
+                return whole if node.args[0].stretches else self._while_counted(node, *whole)
             case "iterated":
                 return self._element(node.args[2], at, rows)
             case "length":
-                return self._while_counted(written(node.value.item()), 5)
+                return self._while_counted(node, written(node.value.item()), 5)
             case "rows":
-                return self._while_counted(f"ROW()-{self.places[node].row + 1}" if node.size > 1 else "0", 2)
+                return self._while_counted(node, f"ROW()-{self.places[node].row + 1}" if node.size > 1 else "0", 2)
             case "finite" if node.args[0].stretches:
                 inner = self._element(node.args[0], _position(node.args[0].shape, node.shape, at), rows)[0]
-                return self._while_counted(f"ISNUMBER({inner})", 5)
+                return self._while_counted(node, f"ISNUMBER({inner})", 5)
             case "take":
                 source, index, _ = node.args
                 return self._element(source, index.reshape(-1)[at], rows)
@@ -205,7 +209,7 @@ class CellFormulas:
                 sources, which, index, _ = node.args
                 source = sources[_only(which.reshape(-1)[at])]
                 part = self._element(source, index.reshape(-1)[at], rows)
-                return self._while_counted(*part) if node.stretches and not source.stretches else part
+                return self._while_counted(node, *part) if node.stretches and not source.stretches else part
             case "reduce":
                 leaf = _as_it_was(node)
                 return (self._unchanged(leaf, rows), 1) if leaf else self._reduced(node, at, rows)
@@ -270,11 +274,15 @@ class CellFormulas:
         text, binding = _OF_RANGE[kind].format(cells, one), 2 if kind.startswith("arg") else 5
         if kind in ("sum", "prod", "nansum") and self.endless(source):
             text = f"IF(AND(MAX({cells})<{_INFINITE},MIN({cells})>-{_INFINITE}),{text},NA())"
-        return self._while_counted(text, binding) if source.stretches and kind.startswith("nan") else (text, binding)
+        return (
+            self._while_counted(node, text, binding) if source.stretches and kind.startswith("nan") else (text, binding)
+        )
 
-    def _while_counted(self, text: str, binding: int) -> tuple[str, int]:
-        """What is known of as many rows as columns have, and how tightly it binds."""
-        return (f"IF({self.counted},{text},NA())", 5) if self.counted else (text, binding)
+    def _while_counted(self, node: Node, text: str, binding: int) -> tuple[str, int]:
+        """What is known of as many rows as columns have, and how tightly it binds; of those that tell this, before."""
+        texts = sorted({*self._counted[: self._known.get(node)]})
+        same = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
+        return (f"IF({same},{text},NA())", 5) if same else (text, binding)
 
     def _unchanged(self, node: Node, rows: Rows) -> str:
         """Condition under which an input or another quantity is what it was; of a list its rows tell what differs.
@@ -322,6 +330,16 @@ def written_of(node: Node) -> tuple[Node, ...]:
         case "reduce" if leaf := _as_it_was(node):
             return (leaf,)
     return node.operands
+
+
+def _under(node: Node) -> set[Node]:
+    """All that cells or readers look at for a quantity."""
+    waiting, found = [node], set[Node]()
+    while waiting:
+        if (part := waiting.pop()) not in found:
+            found.add(part)
+            waiting += [*part.operands, *written_of(part)]
+    return found
 
 
 def _as_it_was(node: Node) -> Node | None:

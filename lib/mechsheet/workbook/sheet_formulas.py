@@ -37,15 +37,13 @@ class SheetFormulas:
         self._cells = CellFormulas(
             arrangement.places,
             arrangement.first,
+            [holds for holds, guard in self.recording.guards.items() if guard.rows],
             inverse=self._inverse,
             searched=searched,
             sure=sure,
             lost=self.recording.lost,
             finite=arrangement.finite,
         )
-        counted = [holds for holds, guard in self.recording.guards.items() if guard.rows]
-        texts = sorted({self._cells.reference(holds)[1:] for holds in counted})
-        self._cells.counted = f"AND({','.join(texts)})" if len(texts) > 1 else "".join(texts)
         self._known: dict[Node, bool] = {}  # which rest on numbers that are not followed
 
     def name(self, node: Node) -> str:
