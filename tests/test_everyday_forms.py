@@ -16,6 +16,7 @@ from own_worksheet import ELSEWHERE, own, recorded, value_of
 from test_recalculation import MADE, edit, verdicts
 
 from mechsheet import evaluate
+from mechsheet.html import write
 from mechsheet.quantities.written import Written
 from mechsheet.readers.numbers import numbers
 from mechsheet.readers.searched import search
@@ -333,6 +334,11 @@ AROUND = [  # lists and dictionaries around a function, whose elements it sets
         "    return v\ny = outer()"
     ),
 ]
+NEAREST = [
+    "v, n = g.F, 0\nwhile v < 40 and n < 9:\n    v, n = v * 1.5 + x[np.argmin(abs(x - v / 10))], n + 1\ny = v",
+    "v = 0.0\nfor d in (1.0, 2.0, 3.0):\n    v += x[np.argmin(abs(x - d))]\n    if v > g.F:\n        break\ny = v",
+    SIZES + "from scipy.integrate import quad\ny = quad(lambda t: D[np.argmax(D * np.sin(t + g.a))] * t, 0, 0.5)[0]",
+]
 APPENDED = [  # to the same lists whatever a condition says
     "T = []\nfor v in (1, 2.0, 3):\n    if v > g.F:\n        T.append(g.a)\n    else:\n        T.append(v)\ny = sum(T)",
     (
@@ -400,6 +406,18 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
         value = value_of(recording, "result", given)
         if not (lines in GUARDED and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.parametrize("lines", NEAREST)
+def test_a_place_taken_in_each_turn_is_followed_and_written(lines: str, tmp_path: Path) -> None:
+    """What decides it stands in a turn of any number, of which neither cells nor a page can say anything."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table('2', 'Two', result)")
+    names, recording = recorded(sheet)
+    for given in ELSEWHERE:
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    report.workbook("", {**names, "__file__": sheet.path}, {})
+    assert "<table" in write.page(sheet, sheet.inputs())
 
 
 @pytest.mark.parametrize("lines", FUNCTIONS)

@@ -99,6 +99,7 @@ FOLLOWED = [
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
     "np.array([[v, g.a] for v in F]).sum(axis=0)": "F", "np.fft.fft(F).real": "F",
     "sum(a.x * b.y for a, b in zip(g.points, g.points[1:]))": "points",
+    "np.array([x[np.argmin(abs(x - v))] for v in F])": "F", "[np.argsort(x * v)[0] for v in F]": "F",
 }  # fmt: skip
 CURVE = [(1, 2.5), (2, 4), (4, 3.5), (5, 6)]
 GIVEN: list[dict[str, Any]] = [

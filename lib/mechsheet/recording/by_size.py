@@ -6,6 +6,7 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.operations import Values
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.ufunc_rules import finite
@@ -19,9 +20,12 @@ def decided(graph: Graph) -> None:
     """See that no place was taken by the size of numbers that differ by nothing but the rounding of their terms.
 
     Of all of them that is seen for other inputs too; of two that come next to each other for those of the run alone.
+    Of any turn of a loop, or of any row, which are followed by one of them, nobody knows the numbers.
     """
-    for x, axis, kind in tuple(graph.chosen):
-        decide(lift(graph, x), axis, kind)
+    for given, axis, kind in tuple(graph.chosen):
+        x = lift(graph, given)
+        if not any(part.op == "state" for part in bottom_up(x.parts, ())):
+            decide(x, axis, kind)
 
 
 def decide(x: Quantity, axis: Any, kind: str) -> None:
