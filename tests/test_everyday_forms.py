@@ -339,6 +339,12 @@ NEAREST = [
     "v = 0.0\nfor d in (1.0, 2.0, 3.0):\n    v += x[np.argmin(abs(x - d))]\n    if v > g.F:\n        break\ny = v",
     SIZES + "from scipy.integrate import quad\ny = quad(lambda t: D[np.argmax(D * np.sin(t + g.a))] * t, 0, 0.5)[0]",
 ]
+SOLVED = [  # of what takes one number after the other, where no name holds what is found
+    "y = find(lambda v: np.cross([v, 1, 0], [0, g.a, 1])[2] + 9 * v, -50, 50, equals=g.F).value",
+    "y = find(lambda v: next((d for d in (1.0, 2.0, 9.0) if d > v), 0.0) + 9 * v, -50, 50, equals=g.F).value",
+    "y = find(lambda v: (2 * v if v > 1 else 1 + v) * g.a, 0, 50, equals=g.F).value",
+    "y = find(lambda p, q: (np.cross([p, q, 1], [1, g.a, 2])[2] + p, q + p), equals=(g.F, 1), p=1.0, q=1.0).value.p",
+]
 APPENDED = [  # to the same lists whatever a condition says
     "T = []\nfor v in (1, 2.0, 3):\n    if v > g.F:\n        T.append(g.a)\n    else:\n        T.append(v)\ny = sum(T)",
     (
@@ -392,6 +398,7 @@ GUARDED = [  # where other inputs change what there is
         *PICKED,
         *PLACED,
         *AROUND,
+        *SOLVED,
         *APPENDED,
         *GUARDED,
     ],

@@ -36,6 +36,10 @@ class Solving:
         raise NotRecorded(f"{name} of what is found")
 
 
+class _OfSeveral(NotRecorded, Exception):
+    """What a recording does not hold of several places at once; a search then goes to one after the other."""
+
+
 @contextmanager
 def tried(graph: Graph) -> Iterator[Callable[[Callable[..., Any]], Callable[..., Any]]]:
     """What lets a function of the worksheet be tried at plain numbers; what is looked at meanwhile is of no use."""
@@ -45,7 +49,12 @@ def tried(graph: Graph) -> Iterator[Callable[[Callable[..., Any]], Callable[...,
 
     def of(f: Callable[..., Any]) -> Callable[..., Any]:
         def at(*x: Any, **unknowns: Any) -> Any:
-            return now(f(*map(place, x[:1]), *x[1:], **{name: place(y) for name, y in unknowns.items()}))
+            try:
+                return now(f(*map(place, x[:1]), *x[1:], **{name: place(y) for name, y in unknowns.items()}))
+            except NotRecorded as error:
+                if any(np.size(each) > 1 for each in (*x[:1], *unknowns.values())):
+                    raise _OfSeveral(*error.args) from None
+                raise
 
         return at
 
