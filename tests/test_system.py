@@ -264,6 +264,18 @@ def test_each_problem_of_an_array_has_its_own_verdict():
     assert one.value.x == found.value.x[0]
 
 
+def test_a_problem_of_an_array_is_searched_as_often_as_alone():
+    """It had the evaluations of the one that took most starts, and took their time."""
+    waves = np.array([1.0, 14.0])
+
+    def roots(k):
+        return find(lambda x, y: (sin(k * x), sin(k * y)), x=(0.1, 4.0), y=(0.1, 4.0))
+
+    alone = [roots(k) for k in waves]
+    assert roots(waves).evaluations.tolist() == [each.evaluations for each in alone]
+    assert alone[1].evaluations > 5 * alone[0].evaluations
+
+
 def test_arrays_broadcast_over_unknowns_targets_and_what_the_equations_read():
     a, b = np.array([[1.0], [2.0]]), np.array([3.0, 4.0, 5.0])
     found = find(lambda x, y: (x + y, a * x - y), equals=(b, 0), x=1.0, y=np.array([1.0, 2.0, 3.0]))

@@ -95,16 +95,17 @@ def newton(
     reach: float,
     unit: Array | None = None,
     free: Array | None = None,
+    only: Mask | bool = True,
 ) -> Ended:
-    """Where f leads from the starts x, shape (n, s, p); without a number it stays.
+    """Where f leads from the starts x, shape (n, s, p); without a number it stays, and so do all but the ``only`` ones.
 
     ``size`` (n, s, p) of the unknowns, ``lo`` and ``hi`` (n, 1, p) their ends, where steps end too; ``reach`` is how
     many sizes the first step goes at most. ``unit`` (m, 1, 1) weighs the residuals where their squares shall be least.
     With ``free`` a few steps are Newton's own, whatever they lead to, but move no unknown by more than that (n, 1, p).
     """
     n, x, r, sizes = len(x), x.copy(), f(x), np.broadcast_to(size, x.shape)
-    moving: Mask = np.logical_and.reduce(np.isfinite(r))
-    evaluations = np.ones(moving.shape, dtype=np.intp)
+    moving: Mask = np.logical_and.reduce(np.isfinite(r)) & only
+    evaluations = np.broadcast_to(only, moving.shape).astype(np.intp)
     slopes = np.full((len(r), *x.shape), np.nan)
     largest = np.zeros(r.shape)
     radius, before = np.full(moving.shape, reach), np.full(moving.shape, np.inf)

@@ -69,7 +69,7 @@ def from_guess(f: Equations, at: Place, unit: Array | None) -> Seen:
         return _distinct([ended], [held], at.size)
     ended, held = _led(f, guess, at, np.inf, None, at.most[:, None])
     if not held.all():
-        more, held_then = _led(f, guess, at, _REACH, None)
+        more, held_then = _led(f, guess, at, _REACH, None, only=~held)
         ended, held = first_or_second(ended, more, held), held | held_then
     return _distinct([ended], [held], at.size)
 
@@ -86,9 +86,9 @@ def between(f: Equations, at: Place, unit: Array | None) -> Seen:
     searching = np.ones(at.first.shape[1], dtype=bool)
     seen = starts = np.zeros(at.first.shape[1], dtype=np.intp)
     while searching.any() and len(batches) < _MOST:
-        ended, held = _batch(f, at, len(batches), unit)
+        ended, held = _batch(f, at, len(batches), unit, searching)
         batches.append(ended)
-        holding.append(held & searching)
+        holding.append(held)
         starts = starts + len(held) * searching
         known = _distinct(batches, holding, at.size)
         singular = known.condition > _SINGULAR
@@ -108,33 +108,40 @@ def aside(f: Equations, at: Place, x: Array, condition: Array) -> Array:
     if not singular.any():
         return np.full_like(x, np.nan)
     own, unit = np.where(singular, x, at.first)[:, None], np.fmax(at.size, _SEEN * np.abs(x))[:, None]
-    way = _led(f, own, at, 1.0, None)[0].least_moving(unit[:, 0])
-    ended, held = _led(f, own + np.array([-1, 1])[:, None] * _ASIDE * unit * way, at, 1.0, None)
+    way = _led(f, own, at, 1.0, None, only=singular)[0].least_moving(unit[:, 0])
+    ended, held = _led(f, own + np.array([-1, 1])[:, None] * _ASIDE * unit * way, at, 1.0, None, only=singular)
     off = np.abs((ended.x - own) / unit).max(0)
     held &= singular & (off > _ASIDE / 4) & (off < 4 * _ASIDE)
     other: Array = ended.x[:, held.argmax(0), np.arange(singular.size)]
     return np.where(held.any(0), other, np.nan)
 
 
-def _batch(f: Equations, at: Place, number: int, unit: Array | None) -> tuple[Ended, Mask]:
+def _batch(f: Equations, at: Place, number: int, unit: Array | None, only: Mask | bool = True) -> tuple[Ended, Mask]:
     """Where one more lot of starts ends, and which of them in a solution."""
     count = _STARTS * len(at.first)
     share = _spread(len(at.first), number * count, count)[:, :, None]
-    return _led(f, at.first[:, None] * (1 - share) + at.last[:, None] * share, at, 1.0, unit)
+    return _led(f, at.first[:, None] * (1 - share) + at.last[:, None] * share, at, 1.0, unit, only=only)
 
 
 def _led(
-    f: Equations, x: Array, at: Place, reach: float, unit: Array | None, free: Array | None = None
+    f: Equations,
+    x: Array,
+    at: Place,
+    reach: float,
+    unit: Array | None,
+    free: Array | None = None,
+    only: Mask | bool = True,
 ) -> tuple[Ended, Mask]:
-    """Where starts end, and which of them in a solution, shape (s, p)."""
+    """Where starts end, and which of the ``only`` ones that are asked for in a solution, shape (s, p)."""
     size, least, lo, hi = (a[:, None] for a in (at.size, at.least, at.lo, at.hi))
-    ended = newton(f, x, size, lo, hi, reach, unit, free)
-    small: Mask = np.logical_or.reduce(np.maximum(np.abs(ended.x), least) < _FINE * size)
+    ended = newton(f, x, size, lo, hi, reach, unit, free, only)
+    small: Mask = np.logical_or.reduce(np.maximum(np.abs(ended.x), least) < _FINE * size) & only
     if small.any() and unit is None:  # steps were too coarse for it
         finer = np.maximum(np.abs(ended.x), least)
-        ended = first_or_second(ended, newton(f, ended.x, finer, lo, hi, np.inf, free=np.full_like(hi, np.inf)), ~small)
+        again = newton(f, ended.x, finer, lo, hi, np.inf, free=np.full_like(hi, np.inf), only=small)
+        ended = first_or_second(ended, again, ~small)
     held: Mask = np.logical_and.reduce(vanishing(f, ended, np.maximum(np.abs(ended.x), least), lo, hi))
-    return ended, held & (unit is None)
+    return ended, held & only & (unit is None)
 
 
 def _spread(n: int, first: int, count: int) -> Array:
