@@ -9,6 +9,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import only_where
 from mechsheet.quantities.graph import Guard, NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, lift
+from mechsheet.quantities.refused import needed
 from mechsheet.quantities.written import Written, seen
 from mechsheet.worksheet.drawing import Drawing
 
@@ -38,7 +39,7 @@ class Outline(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Sketch(Drawing):
-    """A drawing of recorded quantities; whether they can be drawn is judged where they are."""
+    """A drawing of recorded quantities; where points are, and whether they are drawn, is judged there."""
 
     elements: tuple[Any, ...] = ()
     behind: tuple[Any, ...] = ()
@@ -52,11 +53,14 @@ class Sketch(Drawing):
         return cls(**{part.name: getattr(drawing, part.name) for part in fields(Drawing)})
 
     def cylinder(self, A: Any, B: Any, name: str = "", barrel: Any = None) -> "Drawing":
+        if barrel is not None:
+            _positive("barrel of a cylinder", barrel)
         along = B - A
         size = np.where(abs(along) > 0, abs(along), 1.0)  # one of no length has a barrel of none
         return self._with("cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / size)), name)
 
     def wheel(self, centre: Any, r: Any, name: str = "") -> "Drawing":
+        _positive("radius of a wheel", r, np.nan)
         return self._with("wheel", [centre, *(centre + r * i for i in (1, 1j, -1, -1j))], name)
 
     def path(self, points: Any, name: str = "", colour: str = "blue") -> "Drawing":
@@ -90,9 +94,20 @@ class Drawn(NamedTuple):
 
 
 def drawing(*args: Any, **kwargs: Any) -> Drawing:
-    """A new drawing, of recorded quantities where drawings are recorded."""
+    """A new drawing, of recorded quantities where drawings are recorded, or nobody looks at them."""
     args, kwargs = tuple(map(seen, args[:2])) + args[2:], {k: seen(x) if k in _SEEN else x for k, x in kwargs.items()}
-    return (Sketch if current.get().draws else Drawing)(*args, **kwargs)
+    if not current.get().refuses:
+        return Drawing(*args, **kwargs)
+    made = Sketch(*args, **kwargs)
+    for scale in made.scales.values():
+        _positive("scale of arrows", scale)
+    return made
+
+
+def _positive(what: str, number: Any, largest: float = np.inf) -> None:
+    """Note what a drawing refuses: a number that is not above 0, or as large as no number is."""
+    x = lift(current.get(), number)
+    needed(~((x <= 0) | (x == largest)), f"a drawing refuses a {what} that is not positive")
 
 
 def merged(condition: Quantity, x: Sketch, y: Sketch) -> Sketch | None:

@@ -126,7 +126,7 @@ def instead(value: Any) -> Any:
         return polynomial
     if value is Drawing:
         return drawing
-    if isinstance(value, Drawing) and current.get().draws:
+    if isinstance(value, Drawing) and current.get().refuses:
         return Sketch.of(value)
     room = str(getattr(value, "__module__", ""))
     if (unspoken := _unspoken(value, room)) is not None:
