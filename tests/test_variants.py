@@ -168,6 +168,43 @@ if g.F > 3.7 and g.a < 0.4:
     assert re.search(r"sqrt has no value for g.a - 0.25 = -0\.", told)
 
 
+FOUND = """f = find(lambda p, q: (p**2 - x + 1, q - g.a), p=np.array([[2.0], [-3.0]]), q=1.0)
+y = f.value.p[:, -1] + f.value.q[:, -1]  # [-] roots
+n = np.sum(np.isfinite(f.value.p), axis=0)  # [-] how many there are of each
+e = f.evaluations  # [-] evaluations"""
+
+
+@pytest.mark.parametrize("count", [2, 120])
+def test_a_find_of_several_axes_may_have_no_root_at_places(count: int, tmp_path: Path) -> None:
+    """No variant had a number, and numpy's words of a shape for its reason."""
+    sheet, given = own(tmp_path, FOUND), {name: x[:count] for name, x in MANY.items()}
+    given["F"] = np.maximum(given["F"], 0.6)  # below there is no root at the last place
+    swept = assert_those_of_each_alone(sheet, ["n", "y"], **given)
+    assert swept.solved.all() and swept.at_once == (count > 100) and set(swept["n"].flat) == {0, 2}
+    lacking = sweep(sheet.path, ["n", "y"], {"F": [0.4, 0.8]})
+    assert lacking.solved.tolist() == [False, True] and "no solution for p, q" in lacking.reasons[0]
+
+
+def test_lines_beside_a_drawing_go_at_once(tmp_path: Path) -> None:
+    """Python looked at each point of it; what it refuses has its reason."""
+    lines = """from mechsheet import Drawing
+u = x / x.mean()
+d = Drawing(frame=[0, u[0]], scales={"N": g.F - 0.7}).wheel(0j, g.a - 0.3).cylinder(0j, g.F + 0j, barrel=4.5 - g.F)
+y = d and u * g.a"""
+    swept = assert_those_of_each_alone(own(tmp_path, lines), ["y"], **MANY)
+    told = "\n".join(swept.reasons)
+    assert swept.at_once and swept.solved.sum() > 100
+    assert all(what in told for what in ("radius of the wheel", "barrel of the cylinder", "scale of the arrows"))
+
+
+def test_what_is_zero_but_for_rounding_hinders_no_other_result(monkeypatch: Any) -> None:
+    """It differs from itself with each way to compute it, by which none of the results went at once."""
+    path, ran = ROOT / "worksheets" / "landing_gear.py", runs(monkeypatch)
+    swept = sweep(path, ["F3", "M2", "M3", "R03"], {"a": np.linspace(0.19, 0.21, 200)})
+    assert swept.at_once and swept.solved.all() and len(ran) < 10
+    assert np.abs(swept["F3"]).max() < 1e-11 * np.abs(swept["R03"]).max()
+
+
 @pytest.mark.parametrize(
     ("lines", "given"),
     [

@@ -31,7 +31,7 @@ class Followed:
     """The recording of one run of a worksheet, and ``own``, the names of that run.
 
     The worksheet has the same for other inputs while all of ``same`` hold and all of ``exist`` are numbers; ``found``
-    are the values that a Find of it gives.
+    are the single numbers that a Find of it gives: of fields what has none is in what is made of them.
     """
 
     recording: Recording
@@ -74,7 +74,7 @@ def followed(only: Worksheet, want: Sequence[str], g: Any) -> Followed:
     under = bottom_up([part for quantity in quantities for part in quantity.parts], set())
     exist = [node for node in under if node.shape == () and node.op in _PARTIAL]
     exist += refusing(recording.graph)  # of which nothing may be made
-    found = [solved.node for solved in recording.found.values()]
+    found = [solved.node for solved in recording.found.values() if not solved.node.shape]
     return Followed(recording, own, [*seen, *recording.guards], exist, found)
 
 

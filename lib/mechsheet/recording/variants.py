@@ -6,6 +6,7 @@ these: so a line may take means and maxima, pick elements, or ask whether someth
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,8 +14,10 @@ from numpy.typing import NDArray
 
 from mechsheet.quantities.node import Block, Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Values
+from mechsheet.quantities.quantity import Quantity
 from mechsheet.readers.plan import NotPlanned
-from mechsheet.recording.planned import Followed, results
+from mechsheet.readers.terms import Terms
+from mechsheet.recording.planned import Followed, Results, results
 from mechsheet.worksheet.cells import Worksheet, value
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.system import solve
@@ -32,20 +35,18 @@ class Known(NamedTuple):
     known: NDArray[np.bool_]
 
 
-def variants(
-    only: Worksheet, want: Sequence[str], g: Any, varied: Sequence[str]
-) -> Callable[[Mapping[str, NDArray[np.float64]]], Known]:
-    """What gives wanted results from the ``varied`` inputs in SI, one number a variant; all others are those of ``g``.
+@dataclass(frozen=True)
+class Again:
+    """What gives results from the inputs that vary, in SI, one number a variant, by the recording of one of these.
 
-    The cells of ``only`` are all needed for the results. Not known are those that the worksheet refuses, that have
-    no number somewhere, and for which it goes another way than for ``g``. Raises NotPlanned where a quantity cannot
-    be followed for many variants.
+    Not known are those that the worksheet refuses, that have no number somewhere, and for which it goes another way.
     """
-    found = results(only, want, g)
-    compute = together(found.of, found.wanted, varied)
 
-    def again(given: Mapping[str, NDArray[np.float64]]) -> Known:
-        numbers, known = compute(given)
+    found: Results
+    compute: Together
+
+    def __call__(self, given: Mapping[str, NDArray[np.float64]]) -> Known:
+        found, (numbers, known) = self.found, self.compute(given)
         for node in dict.fromkeys(found.wanted):
             known = known & of_all(np.isfinite(numbers[node]))
         space = dict[str, Any]()
@@ -60,7 +61,20 @@ def variants(
             space[root] = made
         return Known({name: value(name, space) for name in found.roots}, known)
 
-    return again
+    def terms(self, name: str) -> Values:
+        """How large the numbers are of which a result of the recorded variant is a sum, in each of its elements."""
+        graph = self.found.of.recording.graph
+        return Terms(graph).recorded(Quantity(graph, *self.found.parts[self.found.roots[name]])).value
+
+
+def variants(only: Worksheet, want: Sequence[str], g: Any, varied: Sequence[str]) -> Again:
+    """What gives wanted results of variants of the ``varied`` inputs, all others of which are those of ``g``.
+
+    The cells of ``only`` are all needed for the results. Raises NotPlanned where a quantity cannot be followed for many
+    variants.
+    """
+    found = results(only, want, g)
+    return Again(found, together(found.of, found.wanted, varied))
 
 
 def together(of: Followed, wanted: Iterable[Node], varied: Sequence[str]) -> Together:

@@ -13,29 +13,20 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.worksheet import check, inputs, mistakes
+from mechsheet.studies.by_variant import Part, alike, by_variant, fits, joined, lacks, of_each, result
+from mechsheet.worksheet import check, inputs, mistakes, numbers
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.check import stating
-from mechsheet.worksheet.errors import OF_NUMBERS, SheetError
+from mechsheet.worksheet.errors import OF_NUMBERS
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.verdict import Verdict, listen, values_only
 
 if TYPE_CHECKING:
-    from mechsheet.recording.variants import Known
+    from mechsheet.recording.variants import Again
 
 _WAYS = 8  # recordings that are kept
-_ALIKE = 1e-9  # of the greatest value: a variant among others and alone differ by rounding
-
-
-@dataclass(frozen=True)
-class Part:
-    """Results of one chunk, variants on the leading axis, which variants lack a value, and the units."""
-
-    values: dict[str, NDArray[Any]]
-    lacking: NDArray[np.bool_]
-    units: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -60,7 +51,7 @@ class Job:
         if self.recorded:
             return self._by_recording(columns)
         if not self.at_once:
-            return _joined([self._tried(one) for one in one_by_one(columns)])
+            return joined([self._tried(one) for one in one_by_one(columns)])
         return self._tried(columns)
 
     def reasons(self, columns: Mapping[str, Any]) -> NDArray[np.object_]:
@@ -84,19 +75,20 @@ class Job:
         sheet, count = self._sheet(), _count(columns)
         lacking = np.zeros(count, dtype=bool)
         g: Any = inputs.instance(sheet.inputs, columns)
+        among = count if varied(columns) else None
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
             for found in _founds(cell, names):
-                lacking |= ~_by_variant(found.valued, count).all(1)
+                valued = by_variant(found.valued, among)
+                lacking |= valued.shape[1] == 1 and ~valued[:, 0]  # of a field what is made of it tells
         sheet.refuse_unbound(self.want, names)
-        among = count if varied(columns) else None
         one_row = among is None and _has_one_row(g)
         wants = {name: np.asarray(_wanted(name, names)) for name in self.want}
         for name in self.numbers:
             if wants[name].shape == (among,):
                 wants[name] = wants[name][:, None]
-        values = {name: _result(name, value, among, one_row) for name, value in wants.items()}
+        values = {name: result(name, value, among, one_row) for name, value in wants.items()}
         for value in values.values():
-            lacking |= _lacking(value)
+            lacking |= lacks(value)
         lines = registry(names)
         return Part(values, lacking, {name: lines[base(name)].unit for name in self.want if base(name) in lines})
 
@@ -117,7 +109,7 @@ class Job:
                 surely = True
             elif self.in_common(columns):
                 return Part({}, np.ones(_count(columns), dtype=bool), {})
-        return _joined([self._tried(half, surely) for half in _halves(columns)])
+        return joined([self._tried(half, surely) for half in _halves(columns)])
 
     def _is_refused(self, columns: Mapping[str, Any]) -> bool:
         """Whether a variant has an error alone that divides by zero among others: elements of its arrays may, too."""
@@ -144,9 +136,9 @@ class Job:
                 parts.append(part)
                 order.append(left[known])
                 left = left[~known]
-        joined = _joined([*parts, *map(self._tried, one_by_one(_rows(columns, left)))])
+        whole = joined([*parts, *map(self._tried, one_by_one(_rows(columns, left)))])
         back = np.argsort(np.concatenate([*order, left]))
-        return Part({name: x[back] for name, x in joined.values.items()}, joined.lacking[back], joined.units)
+        return Part({name: x[back] for name, x in whole.values.items()}, whole.lacking[back], whole.units)
 
     def way(self, values: tuple[float, ...], columns: Mapping[str, Any]) -> "Way | None":
         """How the recording of the variant with these values computes others; None of one that has no results.
@@ -173,7 +165,7 @@ class Job:
         with values_only():
             way = Way(variants(only, self.want, g, names), alone.units, _has_one_row(g))
         again, known = way.results({name: np.array([one[name]]) for name in names})
-        if not known[0] or not all(alike(alone.values[name], again.values[name]) for name in self.want):
+        if not known[0] or not all(way.same(name, alone.values[name], again.values[name]) for name in self.want):
             raise NotPlanned("its own numbers are others")
         return way
 
@@ -184,9 +176,10 @@ class Job:
     def _reasons_in(self, names: dict[str, Any], columns: Mapping[str, Any]) -> NDArray[np.object_]:
         sheet, count = self._sheet(), _count(columns)
         reasons = np.full(count, "", dtype=object)
+        among = count if varied(columns) else None
 
         def add(texts: Any) -> None:
-            new = _by_variant(texts, count)
+            new = by_variant(texts, among)
             reasons[:] = np.where(reasons == "", new[np.arange(count), (new != "").argmax(1)], reasons)
 
         cells = sheet.needed(self.want, ["g"])
@@ -204,12 +197,11 @@ class Job:
             if varied(columns) and count == 1:  # of which Python has its own words
                 return self._reasons(next(one_by_one(columns)))
             add(mistakes.reason(error, self.path))
-        among = count if varied(columns) else None
         for name in (name for cell in cells for name in cell.gives):
             held = names.get(name)
             value = np.asarray(None if isinstance(held, tuple) else held)  # the parts of one may differ in shape
-            if value.dtype.kind in "fc" and _fits(value, among):
-                missing = _lacking(_result(name, value, among))
+            if value.dtype.kind in "fc" and fits(value, among):
+                missing = lacks(result(name, value, among))
                 add(np.where(missing, f"{name} has no value", "")[:, None])
         return reasons
 
@@ -234,21 +226,26 @@ class Job:
 class Way:
     """How the recording of one variant computes others, and what of its run holds for these."""
 
-    again: "Callable[[Mapping[str, NDArray[np.float64]]], Known]"
+    again: "Again"
     units: dict[str, str]
     one_row: bool
+
+    def same(self, name: str, a: NDArray[Any], b: NDArray[Any]) -> bool:
+        """Whether a result of the recorded variant is the same, or differs by what rounding leaves of its terms."""
+        return alike(a, b) or (a.shape == b.shape and numbers.is_rounding((b - a)[0], self.again.terms(name)))
 
     def results(self, given: Mapping[str, NDArray[np.float64]]) -> tuple[Part, NDArray[np.bool_]]:
         """Results of those variants that are known, and which these are."""
         count = len(next(iter(given.values())))
         try:
-            values, known = self.again(given)
+            with values_only():
+                values, known = self.again(given)
         except OF_NUMBERS:  # of one of them, as of a Find with no interval
             if count == 1:
                 return Part({}, np.zeros(0, dtype=bool), {}), np.zeros(1, dtype=bool)
             halves = [self.results(half) for half in _halves(given)]
-            return _joined([part for part, _ in halves]), np.concatenate([known for _, known in halves])
-        results = {name: _of_each(x[known], self.one_row) for name, x in values.items()}
+            return joined([part for part, _ in halves]), np.concatenate([known for _, known in halves])
+        results = {name: of_each(x[known], self.one_row) for name, x in values.items()}
         return Part(results, np.zeros(known.sum(), dtype=bool), self.units), known
 
 
@@ -360,25 +357,6 @@ def _one(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _joined(parts: Sequence[Part]) -> Part:
-    """Parts one after the other; NaN for the values that some of them do not have."""
-    like = {name: value for part in parts for name, value in part.values.items()}
-    values = {}
-    for name, value in like.items():
-        for part in parts:
-            same_shape(name, value, part.values.get(name, value))
-        empty = (np.full((part.lacking.size, *value.shape[1:]), np.nan, value.dtype) for part in parts)
-        values[name] = np.concatenate([part.values.get(name, e) for part, e in zip(parts, empty, strict=True)])
-    lacking = np.concatenate([part.lacking for part in parts])
-    return Part(values, lacking, {name: unit for part in parts for name, unit in part.units.items()})
-
-
-def _by_variant(value: Any, count: int) -> NDArray[Any]:
-    """Values of each variant in a row of its own."""
-    value = np.atleast_2d(value)
-    return value if len(value) == count else np.broadcast_to(value, (count, value.shape[1]))
-
-
 def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     """A wanted number or field, or a part of it; TypeError, which no variant takes for its reason, for all else."""
     own = names.get(base(name))
@@ -387,34 +365,10 @@ def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     return wanted(name, names)
 
 
-def _result(name: str, value: Any, among: int | None, one_row: bool = False) -> NDArray[Any]:
-    """A result of each variant; ``among`` so many variants it is a number or a field.
-
-    Of one alone an array of one is a number, unless a list or a table has ``one_row``, whose axis it may be.
-    """
-    found: NDArray[Any] = np.asarray(value)
-    found = found.astype(complex if found.dtype.kind == "c" else float, copy=False)
-    if among is None:
-        return _of_each(found[None], one_row)
-    if not _fits(found, among):
-        raise TypeError(f"{name} of shape {found.shape} has no axis of {among} variants")
-    rows = _by_variant(found, among)
-    return rows[:, 0] if found.ndim == 0 or found.shape[1:] == (1,) else rows
-
-
-def _of_each(values: NDArray[Any], one_row: bool) -> NDArray[Any]:
-    return values[:, 0] if values.shape[1:] == (1,) and not one_row else values
-
-
 def _has_one_row(g: Any) -> bool:
     """Whether a list or a table among the inputs has one row."""
     lists = (field for field in inputs.declared(type(g)) if isinstance(field, Rows))
     return any(len(x) == 1 for field in lists for _, x in field.leaves(getattr(g, field.name)).values())
-
-
-def _fits(value: NDArray[Any], among: int | None) -> bool:
-    """Whether a value is a number or a field, for each of the variants or for all of them."""
-    return among is None or value.ndim < 2 or (value.ndim == 2 and len(value) in (1, among))
 
 
 def varied(columns: Mapping[str, Any]) -> tuple[str, ...]:
@@ -425,25 +379,6 @@ def varied(columns: Mapping[str, Any]) -> tuple[str, ...]:
 def fixed(columns: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Inputs that all variants have in common, and what they are."""
     return tuple((name, repr(x)) for name, x in columns.items() if not np.ndim(x))
-
-
-def _lacking(value: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which variants have NaN anywhere in this result."""
-    if np.isfinite(value.sum()):  # a fifth of the time of looking at every element
-        return np.zeros(len(value), dtype=bool)
-    return np.asarray(np.isnan(value).reshape(len(value), -1).any(1), dtype=bool)
-
-
-def alike(a: NDArray[Any], b: NDArray[Any]) -> bool:
-    """Whether all variants have the same but for rounding."""
-    own = tuple(range(1, a.ndim))
-    size = np.max(np.abs(a), axis=own, keepdims=True, initial=0.0, where=np.isfinite(a))
-    return a.shape == b.shape and np.allclose(b, a, rtol=0, atol=_ALIKE * size, equal_nan=True)
-
-
-def same_shape(name: str, a: NDArray[Any], b: NDArray[Any]) -> None:
-    if a.shape[1:] != b.shape[1:]:
-        raise SheetError(f"{name} has shape {a.shape[1:]} in one variant and {b.shape[1:]} in another")
 
 
 def digest(path: str) -> str:

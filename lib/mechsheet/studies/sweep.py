@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from mechsheet import units
 from mechsheet.run.progress import on_terminal
 from mechsheet.run.silent import silently
-from mechsheet.studies.chunks import Job, Part, alike, digest, fixed, one_by_one, same_shape, varied
+from mechsheet.studies.by_variant import Part, alike, same_shape
+from mechsheet.studies.chunks import Job, digest, fixed, one_by_one, varied
 from mechsheet.studies.executed import computed
 from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs, lists
