@@ -185,6 +185,15 @@ def test_a_find_of_several_axes_may_have_no_root_at_places(count: int, tmp_path:
     assert lacking.solved.tolist() == [False, True] and "no solution for p, q" in lacking.reasons[0]
 
 
+def test_a_list_of_unlike_parts_hides_no_reason(tmp_path: Path) -> None:
+    """The sweep ended in numpy's error of it as soon as one variant had no value."""
+    sheet = own(tmp_path, "parts = [x, x[:2]]\ny = np.sqrt(x - 0.1).sum()  # [-] number")
+    swept = sweep(sheet.path, ["y"], {"F": [0.5, 2.0]})
+    assert swept.solved.tolist() == [False, True] and swept.reasons[0] == "y has no value"
+    with pytest.raises(TypeError, match="parts is no number and cannot be swept"):
+        sweep(sheet.path, ["parts"], {"F": [0.5, 2.0]})
+
+
 def test_lines_beside_a_drawing_go_at_once(tmp_path: Path) -> None:
     """Python looked at each point of it; what it refuses has its reason."""
     lines = """from mechsheet import Drawing

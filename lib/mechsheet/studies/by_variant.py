@@ -42,6 +42,14 @@ def by_variant(value: Any, among: int | None) -> NDArray[Any]:
     return value if len(value) == among else np.broadcast_to(value, (among, value.shape[1]))
 
 
+def array(held: Any) -> NDArray[Any]:
+    """What a name holds as an array, of a whole number of any length too; of none for a list of unlike parts."""
+    try:
+        return np.asarray(float(held) if type(held) is int else held)
+    except ValueError:
+        return np.asarray(None)
+
+
 def result(name: str, value: Any, among: int | None, one_row: bool = False) -> NDArray[Any]:
     """A result of each variant; ``among`` so many variants it is a number or a field.
 

@@ -13,7 +13,7 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.studies.by_variant import Part, alike, by_variant, fits, joined, lacks, of_each, result
+from mechsheet.studies.by_variant import Part, alike, array, by_variant, fits, joined, lacks, of_each, result
 from mechsheet.worksheet import check, inputs, mistakes, numbers
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
@@ -199,7 +199,7 @@ class Job:
             add(mistakes.reason(error, self.path))
         for name in (name for cell in cells for name in cell.gives):
             held = names.get(name)
-            value = np.asarray(None if isinstance(held, tuple) else held)  # the parts of one may differ in shape
+            value = array(None if isinstance(held, tuple) else held)
             if value.dtype.kind in "fc" and fits(value, among):
                 missing = lacks(result(name, value, among))
                 add(np.where(missing, f"{name} has no value", "")[:, None])
@@ -359,8 +359,7 @@ def _one(value: Any) -> Any:
 
 def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     """A wanted number or field, or a part of it; TypeError, which no variant takes for its reason, for all else."""
-    own = names.get(base(name))
-    if np.asarray(float(own) if type(own) is int else own).dtype.kind not in "iufc":  # of 20 digits an object
+    if array(names.get(base(name))).dtype.kind not in "iufc":
         raise TypeError(f"{name} is no number and cannot be swept")
     return wanted(name, names)
 
