@@ -73,6 +73,17 @@ def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_pat
     assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
 
 
+def test_what_a_drawing_refuses_is_told(blank: Page, tmp_path: Path) -> None:
+    """The worksheet has an error for it; the page drew on, with numbers beside the drawing."""
+    drawn = "from mechsheet import Drawing\nwheel = Drawing().wheel(0j, g.a - 0.3)\ny = wheel and 2 * g.a  # [-] beside"
+    sheet = own(tmp_path, drawn)
+    with pytest.raises(SheetError, match="radius of the wheel"):
+        sheet.run(["y"], {"g": sheet.inputs(a=0.2)})
+    value, why = shown(blank, tmp_path / "a.html", sheet, "a=0.2")["y"]
+    assert not value and "a drawing has an error for a radius" in why
+    assert shown(blank, tmp_path / "a.html", sheet, "a=0.5")["y"] == ("1", "")
+
+
 @pytest.mark.filterwarnings("ignore:invalid value")
 def test_lines_that_have_no_number_any_more_are_named(blank: Page, tmp_path: Path) -> None:
     """Beside what is changed, for they may stand anywhere; what has none for the document's own inputs is no news."""

@@ -60,7 +60,7 @@ class Sketch(Drawing):
         return self._with("cylinder", (A, B, A + (0.6 * along if barrel is None else barrel * along / size)), name)
 
     def wheel(self, centre: Any, r: Any, name: str = "") -> "Drawing":
-        _positive("radius of a wheel", r, np.nan)
+        _positive("radius of a wheel", r, infinite=True)
         return self._with("wheel", [centre, *(centre + r * i for i in (1, 1j, -1, -1j))], name)
 
     def path(self, points: Any, name: str = "", colour: str = "blue") -> "Drawing":
@@ -104,10 +104,10 @@ def drawing(*args: Any, **kwargs: Any) -> Drawing:
     return made
 
 
-def _positive(what: str, number: Any, largest: float = np.inf) -> None:
-    """Note what a drawing refuses: a number that is not above 0, or as large as no number is."""
+def _positive(what: str, number: Any, infinite: bool = False) -> None:
+    """Note what a drawing refuses: a number that is not above 0, or infinite where that is none either."""
     x = lift(current.get(), number)
-    needed(~((x <= 0) | (x == largest)), f"a drawing refuses a {what} that is not positive")
+    needed(~(x <= 0) if infinite else ~((x <= 0) | (x == np.inf)), f"a drawing has an error for a {what} that is not positive")
 
 
 def merged(condition: Quantity, x: Sketch, y: Sketch) -> Sketch | None:
