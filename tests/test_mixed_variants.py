@@ -133,3 +133,13 @@ def test_what_keeps_variants_apart_goes_at_once(lines: str, tmp_path: Path) -> N
     swept = sweep(sheet.path, ["result"], {"F": F})
     alone = [sheet.run(["result"], {"g": sheet.inputs(F=x)})["result"] for x in F]
     assert swept.at_once and np.ravel(swept["result"]) == pytest.approx(np.ravel(alone), rel=1e-12)
+
+
+def test_a_number_that_a_find_has_no_root_for_is_that_of_its_variant(tmp_path: Path) -> None:
+    """Of a target without an axis of positions all variants lacked it, with the reason of the first one that does."""
+    lines = "f = find(lambda v: v**2, 0, 3, equals=np.max(x, axis=-1))\nresult = f.value * 1.0  # [-] line"
+    sheet = own(tmp_path, lines)
+    F = np.linspace(1.0, 6.0, 30)
+    swept = sweep(sheet.path, ["result"], {"F": F})
+    assert swept.at_once and swept.solved.tolist() == (2 * F <= 9).tolist()
+    assert swept.reasons[-1].endswith("12 is outside") and swept["result"][0] == pytest.approx(np.sqrt(2), rel=1e-12)

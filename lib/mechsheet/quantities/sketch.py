@@ -107,7 +107,8 @@ def drawing(*args: Any, **kwargs: Any) -> Drawing:
 def _positive(what: str, number: Any, infinite: bool = False) -> None:
     """Note what a drawing refuses: a number that is not above 0, or infinite where that is none either."""
     x = lift(current.get(), number)
-    needed(~(x <= 0) if infinite else ~((x <= 0) | (x == np.inf)), f"a drawing has an error for a {what} that is not positive")
+    refused = x <= 0 if infinite else (x <= 0) | (x == np.inf)
+    needed(~refused, f"a drawing has an error for a {what} that is not positive")
 
 
 def merged(condition: Quantity, x: Sketch, y: Sketch) -> Sketch | None:

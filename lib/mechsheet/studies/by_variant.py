@@ -42,6 +42,12 @@ def by_variant(value: Any, among: int | None) -> NDArray[Any]:
     return value if len(value) == among else np.broadcast_to(value, (among, value.shape[1]))
 
 
+def told(verdict: Any, among: int | None) -> NDArray[Any]:
+    """The same of what is told of each variant, which a single number that a Find found has no further axis for."""
+    found = np.asarray(verdict)
+    return by_variant(found[:, None] if found.shape == (among,) else found, among)
+
+
 def array(held: Any) -> NDArray[Any]:
     """What a name holds as an array, of a whole number of any length too; of none for a list of unlike parts."""
     try:

@@ -13,7 +13,7 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.studies.by_variant import Part, alike, array, by_variant, fits, joined, lacks, of_each, result
+from mechsheet.studies.by_variant import Part, alike, array, fits, joined, lacks, of_each, result, told
 from mechsheet.worksheet import check, inputs, mistakes, numbers
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
@@ -78,7 +78,7 @@ class Job:
         among = count if varied(columns) else None
         for cell in _run(sheet, sheet.needed(self.want, ["g"]), g, names):
             for found in _founds(cell, names):
-                valued = by_variant(found.valued, among)
+                valued = told(found.valued, among)
                 lacking |= valued.shape[1] == 1 and ~valued[:, 0]  # of a field what is made of it tells
         sheet.refuse_unbound(self.want, names)
         one_row = among is None and _has_one_row(g)
@@ -179,17 +179,17 @@ class Job:
         among = count if varied(columns) else None
 
         def add(texts: Any) -> None:
-            new = by_variant(texts, among)
+            new = told(texts, among)
             reasons[:] = np.where(reasons == "", new[np.arange(count), (new != "").argmax(1)], reasons)
 
         cells = sheet.needed(self.want, ["g"])
         g: Any = inputs.instance(sheet.inputs, columns)
         try:
-            with listen() as told:
+            with listen() as heard:
                 for cell in _run(sheet, [*cells, *_telling(sheet, cells)], g, names):
-                    for lacking in (*told, *_founds(cell, names)):
+                    for lacking in (*heard, *_founds(cell, names)):
                         add(lacking.reason if isinstance(lacking, Verdict) else lacking)
-                    told.clear()
+                    heard.clear()
             sheet.refuse_unbound(self.want, names)
         except OF_NUMBERS as error:
             if count > 1 and not self.in_common(columns):
