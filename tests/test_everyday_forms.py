@@ -37,6 +37,19 @@ KEPT = [
     SIZES + "y = min(filter(lambda d: d >= 3 * g.F, D)) * g.a",
     SIZES + "def fits(d):\n    return d >= 3 * g.F\nfit = list(filter(fits, D))\ny = fit[0] * g.a + len(fit)",
     SIZES + "fit = list(d for d in D if d >= 3 * g.F)\ny = fit[0] * g.a + len(fit)",
+    SIZES
+    + "fits = []\nfor d in D:\n    if d >= 3 * g.F:\n        fits.append(d)\ny = fits[0] * g.a + len(fits) + max(fits)",
+    (
+        SIZES + "names = []\nfits: list[float] = []\nfor k, d in enumerate(D):\n    A = math.pi * d**2 / 4\n"
+        "    if g.F / A > 0.04:\n        continue\n    fits.append(A)\n    names.append(k)\n"
+        "y = min(fits) * g.a + names[0]"
+    ),
+    (
+        SIZES + "def fitting(need):\n    ok, no = [], 0.0\n    ok = []\n    for d in D:\n        if d >= need:\n"
+        "            if d < 18:\n                ok.append(d)\n    return ok[0] if ok else 99.0\n"
+        "y = fitting(5 * g.F) * g.a"
+    ),
+    SIZES + "fits = []\nfor v in (d * 2 for d in D):\n    if v >= 6 * g.F:\n        fits.append(v)\ny = fits[0] * g.a",
     "y = sum(filter(None, [max(g.F - 2.5, 0.0), g.a, 2.0]))",
     "y = sum(map(int, [g.F * 2, g.a, 7.5])) + sum(map(max, [g.F, 2.0], [g.a, 3.0]))",
     "y = sum(map(round, [g.F * 1.3, g.a * 7.2])) + max(map(math.sin, [g.F, g.a]))",
@@ -85,6 +98,11 @@ RANKED = [  # rows in the order of a number of theirs
     "y = sum(k * v for k, v in enumerate(sorted([g.F, 2.0, g.a, 2.0], key=lambda v: -v)))",
 ]
 READ_OTHERWISE = [  # of which Python sees each element
+    SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F and len(ok) < 2:\n        ok.append(d)\ny = len(ok) * g.a",
+    SIZES + "ok = []\nfor d in D:\n    if d < 3 * g.F:\n        ok.append(d)\ny = d + ok[-1] * g.a",
+    SIZES + "ok = held = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(d)\ny = len(held) * g.a",
+    SIZES + "ok = []\nfor d in D:\n    A = d * 2\n    if d >= 3 * g.F:\n        ok.append(A)\ny = ok[0] * g.a + A",
+    SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(-d)\nok.sort()\ny = ok[0] * g.a",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = np.array(fit).sum()",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = 0.0\nfor d in fit:\n    y += d",
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\nfit.append(g.a)\ny = sum(fit) + len(fit)",

@@ -145,38 +145,6 @@ def member(node: ast.Compare) -> ast.expr:
     return node
 
 
-class Comprehended(ast.NodeTransformer):
-    """``map(f, xs)`` and ``filter(f, xs)`` as the generators that give the same, a ``list`` of one in brackets."""
-
-    def visit_Call(self, node: ast.Call) -> ast.AST:
-        self.generic_visit(node)
-        match node:
-            case ast.Call(ast.Name("map"), [f, first, *others], []):
-                found = _gone_through(f, [first, *others])
-            case ast.Call(ast.Name("filter"), [f, first], []):
-                found = _gone_through(f, [first], kept=True)
-            case ast.Call(ast.Name("list"), [ast.GeneratorExp(value, each)], []):
-                found = ast.ListComp(value, each)
-            case _:
-                return node
-        if any(isinstance(part, (*SCOPED, ast.Starred)) for part in ast.walk(node)):
-            return node
-        return ast.fix_missing_locations(ast.copy_location(found, node))
-
-
-def _gone_through(f: ast.expr, sources: list[ast.expr], kept: bool = False) -> ast.GeneratorExp | ast.ListComp:
-    """What a function gives of each, or those that it is true for; None is whether they are it themselves."""
-    names = [f"recorded each {n}" for n in range(len(sources))]
-    each: list[ast.expr] = [ast.Name(name, ast.Load()) for name in names]
-    targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
-    target, items = targets[0], sources[0]
-    if sources[1:]:
-        target, items = ast.Tuple(targets, ast.Store()), ast.Call(ast.Name("zip", ast.Load()), sources, [])
-    value: ast.expr = each[0] if isinstance(f, ast.Constant) else ast.Call(f, each, [])
-    ifs, value = ([value], ast.Name(names[0], ast.Load())) if kept else ([], value)
-    return ast.GeneratorExp(value, [ast.comprehension(target, items, ifs, 0)])
-
-
 def formatted(node: ast.Call) -> ast.JoinedStr | None:
     """``"{:.2f} N".format(F)`` as ``f"{F:.2f} N"``, ``str(F)`` too; None of any other call, and of another format."""
     match node:
@@ -440,9 +408,3 @@ def taking(names: Iterable[str], value: ast.expr) -> ast.expr:
 def call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:
     call = ast.Call(ast.Name(f"recorded {name}", ast.Load()), list(args), [])
     return ast.copy_location(call, at)
-
-
-def deleted(name: str, node: ast.stmt) -> ast.stmt:
-    """Delete a name to which a way has bound nothing."""
-    test = ast.Compare(ast.Name(name, ast.Load()), [ast.Is()], [ast.Name("recorded unbound", ast.Load())])
-    return ast.copy_location(ast.If(test, [ast.Delete([ast.Name(name, ast.Del())])], []), node)

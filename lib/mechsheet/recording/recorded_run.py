@@ -23,6 +23,7 @@ from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
 from mechsheet.recording import exactly, setting_up, showing, statement
 from mechsheet.recording.by_size import decided
+from mechsheet.recording.comprehended import of_cell
 from mechsheet.recording.given import given
 from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
@@ -30,7 +31,6 @@ from mechsheet.recording.named import in_words
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.stage import Stage, held, is_array, is_number
 from mechsheet.recording.substitutes import Module, instead, shared, staged
-from mechsheet.units import Constant
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.errors import as_written
@@ -81,7 +81,7 @@ class Run(OfPositions):
         """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
         stage = Stage(self.recording, self.namespace, cell)
         lines, before = list[ast.stmt](), set[str]()
-        for line in cell.lines:
+        for line in of_cell(cell, self.sheet):
             lines += self.parts(line, before)
             before.update(statement.touched(line))
         facts = [self.facts(line) for line in lines]
@@ -295,9 +295,9 @@ class Run(OfPositions):
         made = numbers and any(has_quantity(self.names.get(name)) for name in reads)
         for name in touched:
             value, line = self.names.get(name), self.declared(name) or self.constants.get(name)
-            if isinstance(value, Constant) or value is units:
+            if isinstance(value, units.Constant) or value is units:
                 self.names[name] = instead(value)
-            if isinstance(value, Constant | Selected) or value is units:
+            if isinstance(value, units.Constant | Selected) or value is units:
                 continue
             unit = line.unit if line and not line.arguments else "-"
             number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value

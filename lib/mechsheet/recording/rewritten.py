@@ -29,14 +29,13 @@ from mechsheet.recording import (
 )
 from mechsheet.recording.appended_alike import appended_alike
 from mechsheet.recording.by_turn import by_turn
+from mechsheet.recording.comprehended import Comprehended
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
-    Comprehended,
     as_choice,
     by_percent,
     call,
-    deleted,
     formatted,
     gone_through,
     index,
@@ -417,8 +416,7 @@ def compiled(statement: ast.stmt, path: str, exact: bool = False) -> CodeType:
     """
     if not (exact or any(map(_may_be_rewritten, source.nodes(statement)))):
         return compile(ast.Module([statement], []), path, "exec")
-    own = ast.Module([pickle.loads(pickle.dumps(statement))], [])
-    tree: Any = _Rewriting().visit(Comprehended().visit(own))
+    tree: Any = _Rewriting().visit(Comprehended().visit(pickle.loads(pickle.dumps(ast.Module([statement], [])))))
     return compile(ast.fix_missing_locations(exactly.Following().visit(tree) if exact else tree), path, "exec")
 
 

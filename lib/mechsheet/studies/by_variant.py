@@ -52,7 +52,7 @@ def array(held: Any) -> NDArray[Any]:
     """What a name holds as an array, of a whole number of any length too; of none for a list of unlike parts."""
     try:
         return np.asarray(float(held) if type(held) is int else held)
-    except ValueError:
+    except (ValueError, OverflowError):
         return np.asarray(None)
 
 

@@ -1,0 +1,124 @@
+"""What goes through elements one by one as the comprehension that it is: its conditions hold for other inputs as well.
+
+``fits = []`` and ``for d in D: if d >= w: fits.append(d)`` behind it are ``fits = [d for d in D if d >= w]``.
+"""
+
+import ast
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from functools import lru_cache
+
+from mechsheet.recording.forms import SCOPED
+from mechsheet.worksheet.cells import Cell, Worksheet
+
+
+class Comprehended(ast.NodeTransformer):
+    """``map(f, xs)`` and ``filter(f, xs)`` as the generators that give the same, a ``list`` of one in brackets.
+
+    Lists that loops of functions fill too.
+    """
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        self.generic_visit(node)
+        node.body = kept_in_loops(node.body)
+        return node
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        self.generic_visit(node)
+        match node:
+            case ast.Call(ast.Name("map"), [f, first, *others], []):
+                found = _gone_through(f, [first, *others])
+            case ast.Call(ast.Name("filter"), [f, first], []):
+                found = _gone_through(f, [first], kept=True)
+            case ast.Call(ast.Name("list"), [ast.GeneratorExp(value, each)], []):
+                found = ast.ListComp(value, each)
+            case _:
+                return node
+        if any(isinstance(part, (*SCOPED, ast.Starred)) for part in ast.walk(node)):
+            return node
+        return ast.fix_missing_locations(ast.copy_location(found, node))
+
+
+def _gone_through(f: ast.expr, sources: list[ast.expr], kept: bool = False) -> ast.GeneratorExp | ast.ListComp:
+    """What a function gives of each, or those that it is true for; None is whether they are it themselves."""
+    names = [f"recorded each {n}" for n in range(len(sources))]
+    each: list[ast.expr] = [ast.Name(name, ast.Load()) for name in names]
+    targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
+    target, items = targets[0], sources[0]
+    if sources[1:]:
+        target, items = ast.Tuple(targets, ast.Store()), ast.Call(ast.Name("zip", ast.Load()), sources, [])
+    value: ast.expr = each[0] if isinstance(f, ast.Constant) else ast.Call(f, each, [])
+    ifs, value = ([value], ast.Name(names[0], ast.Load())) if kept else ([], value)
+    return ast.GeneratorExp(value, [ast.comprehension(target, items, ifs, 0)])
+
+
+def kept_in_loops(lines: Sequence[ast.stmt], read: frozenset[str] = frozenset()) -> list[ast.stmt]:
+    """Statements with comprehensions for such lists; not where the others, or who else has ``read`` them, need the
+    names that the loop leaves.
+    """
+    found, empty = list[ast.stmt](), list[str]()  # lists that nothing was put into, by the statements before
+    for line in lines:
+        others = read.union(*(_loaded(each) for each in lines if each is not line)) if empty else read
+        kept = _kept(empty, line, others) if empty and isinstance(line, ast.For) else []
+        if kept:
+            found = [each for each in found if _empty(each) not in [name for name, _ in kept]]
+        new = (ast.Assign([ast.Name(name, ast.Store())], some) for name, some in kept)
+        found += [ast.fix_missing_locations(ast.copy_location(each, line)) for each in new] or [line]
+        name = _empty(line)
+        empty = [*empty, name] if name else []
+    return found
+
+
+def _empty(line: ast.stmt) -> str:
+    """The name of a new list with nothing in it."""
+    match line:
+        case ast.Assign([ast.Name(name)], ast.List([])) | ast.AnnAssign(ast.Name(name), value=ast.List([])):
+            return name
+    return ""
+
+
+@lru_cache(maxsize=512)
+def of_cell(cell: Cell, sheet: Worksheet) -> list[ast.stmt]:
+    """The statements of a cell, which are looked at once for each of them."""
+    return kept_in_loops(cell.lines, frozenset[str]().union(*(each.needs for each in sheet.cells)))
+
+
+def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tuple[str, ast.ListComp]]:
+    """What a loop puts into some lists of what meets a condition; nothing where it does anything else."""
+    each, ifs, body = [ast.comprehension(loop.target, loop.iter, [], 0)], list[ast.expr](), loop.body
+    while True:
+        match body:
+            case [ast.Assign([ast.Name() as own], made), *body] if body and not ifs:
+                each.append(ast.comprehension(own, ast.List([made], ast.Load()), [], 0))
+            case [ast.If(test, [ast.Continue()], []), *body] if body:
+                ifs.append(ast.UnaryOp(ast.Not(), test))
+            case [ast.If(test, body, [])]:
+                ifs.append(test)
+            case _:
+                break
+    each[-1].ifs = ifs
+    kept = [(name, ast.ListComp(value, deepcopy(each))) for line in body for name, value in _appended(line)]
+    names = [name for name, _ in kept]
+    left = {part.id for own in each for part in ast.walk(own.target) if isinstance(part, ast.Name)}
+    if not ifs or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
+        return []
+    parts = [part for _, some in kept for part in ast.walk(some)]
+    read_or_bound = (isinstance(part, SCOPED) or (isinstance(part, ast.Name) and part.id in names) for part in parts)
+    return [] if any(read_or_bound) else kept
+
+
+def _appended(line: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
+    match line:
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
+            yield name, value
+
+
+def _loaded(of: ast.AST) -> set[str]:
+    """Names that are read, but for what a loop or a comprehension there calls its own elements."""
+    names = [part for part in ast.walk(of) if isinstance(part, ast.Name)]
+    own = {id(name) for part in ast.walk(of) if isinstance(part, _LOOPS) for name in ast.walk(part.target)}
+    bound = {name.id for name in names if id(name) in own}
+    return {name.id for name in names if isinstance(name.ctx, ast.Load)} - bound
+
+
+_LOOPS = ast.For, ast.comprehension
