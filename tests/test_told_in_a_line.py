@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from as_script import as_command, as_script
+from as_script import as_command, as_launched, as_script
 from openpyxl import load_workbook
 from own_worksheet import written
 from test_launcher import refusal
@@ -286,6 +286,32 @@ def test_warnings_of_what_a_line_calls_are_told_at_the_line(tmp_path: Path) -> N
     run = as_script(worksheet(tmp_path, "x = g.L * np.arange(3)  # [m] x\ny = x[x > 99].mean()  # [m] mean"))
     assert len(run.stderr.splitlines()) == 2, run.stderr
     assert all("told.py, line 35, y = x[x > 99].mean(): " in line for line in run.stderr.splitlines()), run.stderr
+
+
+@pytest.mark.parametrize("command", ["run", "html", "scenes", "scenes side by side", "compare", "index", "design"])
+def test_warnings_are_told_in_a_line_by_whatever_command(command: str, tmp_path: Path) -> None:
+    """Each as often as there are lines that it warns of: two lines of Python's own were told, of each process."""
+    path = worksheet(tmp_path, "same = g.F is 5.0\ny = np.array([g.L]) / (g.n - g.n)  # [m] y")
+    scenes = [tmp_path / f"{name}.toml" for name in "ab"]
+    for k, scene in enumerate(scenes):
+        scene.write_text(f"[inputs]\nF = {k + 3}\n")
+    out = f"--out={tmp_path}"
+    given = {
+        "run": ["run", path, out],
+        "html": ["html", path, out],
+        "scenes": ["run", path, *scenes, out],
+        "scenes side by side": ["run", path, *scenes, "--jobs=2", out],
+        "compare": ["compare", path, *scenes],
+        "index": ["index", path],
+        "design": ["design", path, "--vary=F=1..2", "--best=max F"],
+    }[command]
+    compared, *others = as_launched(*given).stderr.splitlines()
+    assert 'told.py, line 34, same = g.F is 5.0: "is" with' in compared
+    if command == "index":  # which runs nothing, and finds nothing to list here
+        assert len(others) == 1 and others[0].startswith("error: ")
+    else:
+        line = "told.py, line 35, y = np.array([g.L]) / (g.n - g.n): divide by zero encountered in divide"
+        assert others == [line]
 
 
 @pytest.mark.parametrize("ends", ["z = 1 / 0", "z = find(lambda x: x**2 + 1, 0.0, 1.0).value"])

@@ -4,6 +4,7 @@ import glob
 import shutil
 import signal
 import sys
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -18,7 +19,7 @@ from mechsheet.recording.record import record
 from mechsheet.run import banding, report
 from mechsheet.run.arguments import UsageError, read, usage
 from mechsheet.run.arguments import load as load_scene
-from mechsheet.run.ending import INTERRUPTED, MISUSED, say, watch
+from mechsheet.run.ending import INTERRUPTED, MISUSED, say, warn, warn_in_lines, watch
 from mechsheet.run.progress import progress
 from mechsheet.run.proving import proof_of, proof_of_wanted
 from mechsheet.run.units_once import units_of
@@ -228,16 +229,23 @@ def _attempts(
     pool = ProcessPoolExecutor(jobs, get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN))
     try:
         found = pool.map(partial(_elsewhere, sheet.path, options=options, out=out), files)
-        for file, (outcome, built) in zip(files, found, strict=True):
+        for file, (outcome, built, warned) in zip(files, found, strict=True):
+            for line in warned:
+                warn(line)
             yield replace(outcome, g=_inputs(sheet, file, options)) if built else outcome
     finally:
         pool.shutdown(cancel_futures=True)
 
 
-def _elsewhere(path: str, file: Path, options: Sequence[str], out: Path | None) -> tuple[Outcome, bool]:
-    """Outcome of a scene without its inputs, whose class no other process knows, and whether they could be built."""
-    outcome = attempt(load(path), file, options, out)
-    return replace(outcome, g=None), outcome.g is not None
+def _elsewhere(path: str, file: Path, options: Sequence[str], out: Path | None) -> tuple[Outcome, bool, list[str]]:
+    """Outcome of a scene without its inputs, whose class no other process knows, whether they could be built, and what
+    it warns of.
+    """
+    warned = list[str]()
+    with warnings.catch_warnings():
+        warn_in_lines(path, warned.append)
+        outcome = attempt(load(path), file, options, out)
+    return replace(outcome, g=None), outcome.g is not None, warned
 
 
 def _inputs(sheet: Worksheet, file: Path, options: Sequence[str]) -> Any:

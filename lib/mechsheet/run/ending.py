@@ -2,9 +2,12 @@
 
 import os
 import sys
+import warnings
+from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from types import TracebackType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.errors import SheetError
@@ -12,15 +15,25 @@ from mechsheet.worksheet.errors import SheetError
 INTERRUPTED = 130  # the exit code of a program that Ctrl-C ended, as shells have it
 MISUSED = 2  # what was given cannot be used, as most commands have it
 _over = list[bool]()
+_warned = set[str]()
 _held = list[str]()  # warnings that an error which ends the run says better
 _UNREAD = 141  # of one whose reader has gone, as head does after its last line
 
 
 def watch(worksheet: str) -> None:
-    """Begin a run of the worksheet: whatever it raises ends in one line on stderr and the exit code."""
+    """Begin a run of the worksheet: whatever it raises ends in one line on stderr and the exit code.
+
+    What it warns of is told in a line too.
+    """
     _over.clear()
     _held.clear()
+    warn_in_lines(worksheet, warn)
     sys.excepthook = partial(_end, worksheet)
+
+
+def warn_in_lines(worksheet: str, tell: Callable[[str], object]) -> None:
+    """Let a warning about a line of the worksheet be told in one line, as a mistake in it is."""
+    warnings.showwarning = partial(_told_in_line, Path(worksheet).resolve(), tell, warnings.showwarning)
 
 
 def over() -> None:
@@ -33,11 +46,42 @@ def is_over() -> bool:
 
 
 def warn(line: str) -> None:
-    """Print a warning; one of an invalid value once the run has something to say: an error that ends it says why."""
+    """Print a warning, once; one of an invalid value when the run has something to say: an error that ends it says why.
+
+    A file is read more than once, and a scene is computed as others are.
+    """
+    if line in _warned:
+        return
+    _warned.add(line)
     if ": invalid value encountered" in line:
         _held.append(line)
     else:
         print(line, file=sys.stderr)
+
+
+def _told_in_line(
+    worksheet: Path,
+    tell: Callable[[str], object],
+    otherwise: Callable[..., None],
+    message: Warning,
+    kind: Any,
+    file: str,
+    line: int,
+    *more: Any,
+) -> None:
+    """Tell a warning about a line of the worksheet, or of what that calls; what else there is goes on as it was."""
+    if Path(file).resolve() != worksheet:
+        frame = sys._getframe(1)
+        while frame and Path(frame.f_code.co_filename).resolve() != worksheet:
+            frame = frame.f_back  # type: ignore[assignment]
+        if not frame:
+            otherwise(message, kind, file, line, *more)
+            return
+        line = frame.f_lineno
+    text = worksheet.read_text(encoding="utf-8").splitlines()
+    # Of a backslash, as in $\phi$, Python warns from 3.12 on.
+    hint = ' (a text with \\ is written r"..")' if "escape sequence" in str(message) else ""
+    tell(f"{mistakes.at(worksheet, line, text[line - 1])}: {message}{hint}")
 
 
 def say(*lines: object) -> None:

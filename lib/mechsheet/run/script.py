@@ -8,18 +8,15 @@ import atexit
 import gc
 import os
 import sys
-import warnings
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from mechsheet.run.ending import is_over, warn, watch
+from mechsheet.run.ending import is_over, watch
 
 _END = 'if __name__ == "__main__":\n    app.run()'  # of a worksheet, as marimo writes it
 _reporting = list[str]()  # the worksheet that is to be reported at the exit
-_warned = set[str]()
 _SEARCHES = 50  # of those that are new, before older ones are looked through too
 _OBJECTS = 100_000  # made between two searches for circles among them, which take a tenth of a run if done as usual
 
@@ -86,36 +83,12 @@ def _run(worksheet: str) -> None:
     from mechsheet.worksheet.verdict import listen  # on use: as above
 
     try:
-        warnings.showwarning = partial(_warn, Path(worksheet).resolve(), warnings.showwarning)
         sheet = load(worksheet)
         ask.unasked(sheet)
         with listen():
             report.end(sheet.run_whole())
     finally:
         gc.freeze()  # the process ends: to look through all that is left takes a sixth of a run, for nothing
-
-
-def _warn(
-    worksheet: Path, otherwise: Callable[..., None], message: Warning, kind: Any, file: str, line: int, *more: Any
-) -> None:
-    """Tell a warning about a line of the worksheet, or of what that calls, in one line as a mistake in it is told."""
-    if Path(file).resolve() != worksheet:
-        frame = sys._getframe(1)
-        while frame and Path(frame.f_code.co_filename).resolve() != worksheet:
-            frame = frame.f_back  # type: ignore[assignment]
-        if not frame:
-            otherwise(message, kind, file, line, *more)
-            return
-        line = frame.f_lineno
-    from mechsheet.worksheet import mistakes  # on use: most runs warn of nothing
-
-    text = worksheet.read_text(encoding="utf-8").splitlines()
-    # Of a backslash, as in $\phi$, Python warns from 3.12 on.
-    hint = ' (a text with \\ is written r"..")' if "escape sequence" in str(message) else ""
-    told = f"{mistakes.at(worksheet, line, text[line - 1])}: {message}{hint}"
-    if told not in _warned:  # a file is read more than once
-        _warned.add(told)
-        warn(told)
 
 
 if __name__ == "__main__":
