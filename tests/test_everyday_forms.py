@@ -98,6 +98,8 @@ RANKED = [  # rows in the order of a number of theirs
     "y = sum(k * v for k, v in enumerate(sorted([g.F, 2.0, g.a, 2.0], key=lambda v: -v)))",
 ]
 READ_OTHERWISE = [  # of which Python sees each element
+    SIZES
+    + "A = 5.0\nok = []\nfor d in D:\n    if d >= 3 * g.F:\n        A = d / 2\n        ok.append(A)\ny = ok[0] * g.a",
     SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F and len(ok) < 2:\n        ok.append(d)\ny = len(ok) * g.a",
     SIZES + "ok = []\nfor d in D:\n    if d < 3 * g.F:\n        ok.append(d)\ny = d + ok[-1] * g.a",
     SIZES + "ok = held = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(d)\ny = len(held) * g.a",

@@ -88,19 +88,20 @@ def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tup
     each, ifs, body = [ast.comprehension(loop.target, loop.iter, [], 0)], list[ast.expr](), loop.body
     while True:
         match body:
-            case [ast.Assign([ast.Name() as own], made), *body] if body and not ifs:
+            case [ast.Assign([ast.Name() as own], made), *rest] if not ifs:
                 each.append(ast.comprehension(own, ast.List([made], ast.Load()), [], 0))
-            case [ast.If(test, [ast.Continue()], []), *body] if body:
+            case [ast.If(test, [ast.Continue()], []), *rest]:
                 ifs.append(ast.UnaryOp(ast.Not(), test))
-            case [ast.If(test, body, [])]:
+            case [ast.If(test, rest, [])]:
                 ifs.append(test)
             case _:
                 break
+        body = rest
     each[-1].ifs = ifs
     kept = [(name, ast.ListComp(value, deepcopy(each))) for line in body for name, value in _appended(line)]
     names = [name for name, _ in kept]
     left = {part.id for own in each for part in ast.walk(own.target) if isinstance(part, ast.Name)}
-    if not ifs or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
+    if not (ifs and kept) or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
         return []
     parts = [part for _, some in kept for part in ast.walk(some)]
     read_or_bound = (isinstance(part, SCOPED) or (isinstance(part, ast.Name) and part.id in names) for part in parts)
@@ -114,11 +115,13 @@ def _appended(line: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
 
 
 def _loaded(of: ast.AST) -> set[str]:
-    """Names that are read, but for what a loop or a comprehension there calls its own elements."""
-    names = [part for part in ast.walk(of) if isinstance(part, ast.Name)]
-    own = {id(name) for part in ast.walk(of) if isinstance(part, _LOOPS) for name in ast.walk(part.target)}
-    bound = {name.id for name in names if id(name) in own}
-    return {name.id for name in names if isinstance(name.ctx, ast.Load)} - bound
+    """Names that are read or deleted, but for what a loop or a comprehension there calls its own elements."""
+    parts = [*ast.walk(of)]
+    read = {part.id for part in parts if isinstance(part, ast.Name) and not isinstance(part.ctx, ast.Store)}
+    read |= {part.target.id for part in parts if isinstance(part, ast.AugAssign) and isinstance(part.target, ast.Name)}
+    read |= {name for part in parts if isinstance(part, ast.Global | ast.Nonlocal) for name in part.names}
+    targets = (name for part in parts if isinstance(part, _LOOPS) for name in ast.walk(part.target))
+    return read - {name.id for name in targets if isinstance(name, ast.Name)}
 
 
 _LOOPS = ast.For, ast.comprehension
