@@ -220,7 +220,7 @@ def test_inputs_of_all_kinds_are_values(bolt: Path) -> None:
             "there that of b, c must go",
         ),
         ("a: float = 1.0  # metre", "input a needs a comment with its unit, such as # \\[m\\] meaning"),
-        ("a: int  # [mm] length", "a: the fields of options and rows are floats, texts, or ints without unit"),
+        ("a: int  # [mm] length", "a: the fields of options and rows are floats, texts, or ints in "),
         ("a: int = 2.5  # [-] count", ", line 5: a = 2.5 must be a whole number"),
         ('a: float = "4 mm"  # [mm] length', ", line 5: a = '4 mm' is no number"),
         ('a: int = "2"  # [-] count', "a = '2' is no number"),

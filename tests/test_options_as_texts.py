@@ -114,7 +114,7 @@ def test_code_gives_whole_numbers_too(gears: Path) -> None:
 @pytest.mark.parametrize("line", ["z: int  # [mm] teeth", "is_new: bool  # new"])
 def test_what_an_option_or_a_row_cannot_have_is_told(line: str) -> None:
     name = line.partition(":")[0]
-    must = f"line 4: {name}: the fields of options and rows are floats, texts, or ints without unit"
+    must = rf"line 4: {name}: the fields of options and rows are floats, texts, or ints in \[-\], as 1 and 0 for yes"
     with pytest.raises(SheetError, match=must):
         run(f"from mechsheet import inputs\n@inputs\nclass Part:\n    {line}\n    m: float  # [kg] mass")
 

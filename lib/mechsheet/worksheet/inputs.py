@@ -157,7 +157,7 @@ def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[I
         if other := next(
             (f.name for f in found if not (f.is_text or f.continuous or (type(f) is Input and f.counted))), ""
         ):
-            kinds = "the fields of options and rows are floats, texts, or ints without unit"
+            kinds = "the fields of options and rows are floats, texts, or ints in [-], as 1 and 0 for yes and no"
             raise SheetError(f"{places[other]}: {other}: {kinds}")
     unknown = {field.name for field in found if field.mistake}
     found = [_without(field, unknown) for field in found] if unknown else found
