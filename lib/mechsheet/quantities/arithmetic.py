@@ -125,9 +125,15 @@ def whole(x: Quantity) -> Quantity:
     return x
 
 
-def as_whole(made: Quantity, each: Quantity) -> Quantity:
-    """What Python's own sum, least or greatest of some numbers is: whole where each of them is."""
-    return whole(made) if is_whole(each) else made
+def is_count(x: Quantity) -> bool:
+    """Whether a text has no decimals of it: of a whole number, and of what is counted in a row."""
+    return _is_whole(x.re, x.graph.whole | x.graph.counted)
+
+
+def as_count(made: Quantity, each: Quantity) -> Quantity:
+    """What Python's own sum, least or greatest of some numbers is: counted where each of them is."""
+    made.graph.counted.update([made.re] if is_count(each) else ())
+    return made
 
 
 def trunc(x: Quantity) -> Any:

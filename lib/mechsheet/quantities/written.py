@@ -7,7 +7,7 @@ from functools import reduce
 from operator import or_
 from typing import Any, NamedTuple
 
-from mechsheet.quantities.arithmetic import choice, is_whole
+from mechsheet.quantities.arithmetic import choice, is_count
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import regrouped
@@ -244,7 +244,7 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
         begin, digits, kind = short[1], short[2] or ".6", short[3]
         value, kind, end = (value * 100, "f", "%") if kind == "%" else (value, kind, "")
         spec = begin + digits + kind
-    elif isinstance(value, Quantity) and spec in ("", "+", ",", "+,") and is_whole(value):
+    elif isinstance(value, Quantity) and spec in ("", "+", ",", "+,") and is_count(value):
         spec += "d"
     followed = _is_followed(value, spec)
     if followed:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import as_whole
+from mechsheet.quantities.arithmetic import as_count
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.array_rules import SORTED
 from mechsheet.quantities.graph import NotRecorded, current
@@ -221,7 +221,7 @@ class EachRow(Sifted, Listed):
         if found is None:
             graph.looked = looked
         elif kind in ("sum", "min", "max") and isinstance(self.parts, Quantity):
-            found = as_whole(lift(graph, found), self.parts)
+            found = as_count(lift(graph, found), self.parts)
         return found
 
     def _by(self, kind: str, key: Any) -> Any:

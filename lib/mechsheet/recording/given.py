@@ -34,7 +34,7 @@ def given(graph: Graph, g: Any) -> tuple[Any, dict[str, Node]]:
                 continue
             case Rows():
                 graph.columns([*leaves.values()])
-                graph.whole.update(leaves[column.name] for column in field.columns if column.counted)
+                graph.counted.update(leaves[column.name] for column in field.columns if column.counted)
                 labels = _texts(graph, field, value, leaves)
             case Choice():
                 own = leaves[field.name]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice, is_whole, only_where
+from mechsheet.quantities.arithmetic import choice, is_count, is_whole, only_where
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
@@ -119,7 +119,7 @@ def _by_places(old: Quantity, key: Any) -> list[Any]:
         return []
     if not (told or (old.graph.draws and any(part.stretches for part in old.parts))):
         return []
-    places = all(part.single and part.dtype != bool and is_whole(part) for part in told)
+    places = all(part.single and part.dtype != bool and is_count(part) for part in told)
     others = all(type(part) is int or part == slice(None) for part in every if not isinstance(part, Quantity))
     return every if places and others and any(type(part) is not slice for part in every) else []
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import imaginary, is_whole, none_like
+from mechsheet.quantities.arithmetic import imaginary, is_count, none_like
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
@@ -72,7 +72,7 @@ def counted(*ends: Any) -> Any:
     """Python's range, for a loop."""
     start, stop, step = (0, *ends, 1) if len(ends) == 1 else (*ends, 1)[:3]
     distance = lift(current.get(), stop) - start if has_quantity([start, stop]) else None
-    if distance is None or not (distance.single and is_whole(distance) and type(step) is int and step):
+    if distance is None or not (distance.single and is_count(distance) and type(step) is int and step):
         return range(*ends)
     return Turns(ends, start, step, distance if step == 1 else -(-distance // step))
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import as_whole
+from mechsheet.quantities.arithmetic import as_count
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up, free_of
 from mechsheet.quantities.operations import ELEMENTWISE, regrouped
@@ -161,7 +161,7 @@ def _row(source: Any, rows: dict[Node, Node]) -> Any:
         return regrouped(source.parts, [_row(part, rows) for part in source.parts])
     parts = [source.graph.state(part) for part in source.whole()[0].parts]
     rows.update(zip(parts, source.whole().parts, strict=True))
-    return as_whole(Quantity(source.graph, *parts), source)
+    return as_count(Quantity(source.graph, *parts), source)
 
 
 def _is_formula(each: Quantity, rows: Collection[Node]) -> bool:
@@ -188,7 +188,7 @@ def _column(each: Quantity, rows: dict[Node, Node]) -> Quantity:
 def _whole(kind: str, each: Quantity) -> Any:
     if kind in ("any", "all"):
         return (each if each.dtype == bool else each != 0).reduced(kind)
-    return each if kind == "array" else as_whole(each.reduced(kind), each)
+    return each if kind == "array" else as_count(each.reduced(kind), each)
 
 
 CALLS: dict[str, Any] = {"of_rows": of_rows}

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.worksheet import data_file, errors, limits
+from mechsheet.worksheet.count import Count
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.numbers import significant
@@ -281,8 +282,9 @@ class Whole:
         parts = {name: column[key] for name, column in vars(self).items()}
         alone = not any(getattr(part, "ndim", 0) for part in parts.values())  # a text has none
         found: Any = object.__new__(self.__row__ if alone else type(self))
-        if alone:  # teeth of a row are counted, ``range(stage.z)``
-            parts |= {field.name: field.held(parts) for field in self.__row__.__properties__ if field.counted}
+        for field in self.__row__.__properties__ if alone else ():
+            if field.counted and isinstance(parts[field.name], float):  # teeth of a row, ``range(stage.z)``
+                parts[field.name] = Count(parts[field.name])
         for name, part in parts.items():
             object.__setattr__(found, name, part)
         return found
