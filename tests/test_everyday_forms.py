@@ -50,6 +50,10 @@ KEPT = [
         "y = fitting(5 * g.F) * g.a"
     ),
     SIZES + "fits = []\nfor v in (d * 2 for d in D):\n    if v >= 6 * g.F:\n        fits.append(v)\ny = fits[0] * g.a",
+    (
+        "def law(made=[]):\n    made.append(1)\n    n = len(made)\n    return lambda v: v * g.a + n\n"
+        "y = sum(map(law(), [g.F, 2.0]))"
+    ),
     "y = sum(filter(None, [max(g.F - 2.5, 0.0), g.a, 2.0]))",
     "y = sum(map(int, [g.F * 2, g.a, 7.5])) + sum(map(max, [g.F, 2.0], [g.a, 3.0]))",
     "y = sum(map(round, [g.F * 1.3, g.a * 7.2])) + max(map(math.sin, [g.F, g.a]))",

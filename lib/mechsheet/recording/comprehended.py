@@ -26,9 +26,9 @@ class Comprehended(ast.NodeTransformer):
     def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         match node:
-            case ast.Call(ast.Name("map"), [f, first, *others], []):
+            case ast.Call(ast.Name("map"), [f, first, *others], []) if not _is_made(f):
                 found = _gone_through(f, [first, *others])
-            case ast.Call(ast.Name("filter"), [f, first], []):
+            case ast.Call(ast.Name("filter"), [f, first], []) if not _is_made(f):
                 found = _gone_through(f, [first], kept=True)
             case ast.Call(ast.Name("list"), [ast.GeneratorExp(value, each)], []):
                 found = ast.ListComp(value, each)
@@ -37,6 +37,11 @@ class Comprehended(ast.NodeTransformer):
         if any(isinstance(part, (*SCOPED, ast.Starred)) for part in ast.walk(node)):
             return node
         return ast.fix_missing_locations(ast.copy_location(found, node))
+
+
+def _is_made(f: ast.expr) -> bool:
+    """Whether a function is made where it is handed on, and that once: ``partial(f, 2)``."""
+    return not isinstance(f, ast.Lambda) and any(isinstance(part, ast.Call) for part in ast.walk(f))
 
 
 def _gone_through(f: ast.expr, sources: list[ast.expr], kept: bool = False) -> ast.GeneratorExp | ast.ListComp:
