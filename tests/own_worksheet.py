@@ -1,10 +1,13 @@
 """Worksheets with some lines of one's own, recorded, and what is read from the recording for other inputs."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from textwrap import indent
 from typing import Any
+
+import numpy as np
+from by_cells import by_cells
 
 from mechsheet.quantities.lines import Recording
 from mechsheet.readers.numbers import numbers
@@ -86,6 +89,13 @@ def value_of(recording: Recording, name: str, given: dict[str, Any]) -> Any:
     known = numbers(found, {recording.inputs[key]: float(x) for key, x in given.items()})
     values = [known[node] for node in found]
     return values[0] if len(values) == 1 else values[0] + 1j * values[1]
+
+
+def assert_followed(sheet: cells.Worksheet, recording: Recording, others: Iterable[dict[str, Any]]) -> None:
+    """The recorded ``result`` for other inputs is what the cells of the worksheet give for them."""
+    for given in others:
+        own_value = by_cells(sheet.path, ["result"], **given)["result"]
+        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
 
 
 ELSEWHERE: list[dict[str, Any]] = [{}, *OTHER, {"F": 4.0, "a": 1.0}, {"F": 2.5000001}, {"n": 3}, {"n": 8, "F": 3.25}]

@@ -2,11 +2,9 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
-from by_cells import by_cells
 from never_stale import assert_never_stale
-from own_worksheet import OTHER, own, recorded, value_of
+from own_worksheet import OTHER, assert_followed, own, recorded
 
 SHARED = [  # by names that show elements of what is changed
     "w = np.arange(5.0)\nv = w[1:]\nif g.F > 3:\n    w += 1.0\ny = v.sum()",
@@ -64,6 +62,4 @@ def test_no_number_is_stale(lines: str, tmp_path: Path) -> None:
 def test_what_asks_first_is_followed(lines: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
-    for given in OTHER:
-        result = by_cells(sheet.path, ["result"], **given)["result"]
-        np.testing.assert_allclose(value_of(recording, "result", given), result, rtol=1e-12, err_msg=str(given))
+    assert_followed(sheet, recording, OTHER)

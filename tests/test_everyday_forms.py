@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from by_cells import by_cells
 from never_stale import assert_never_stale
-from own_worksheet import ELSEWHERE, own, recorded, value_of
+from own_worksheet import ELSEWHERE, assert_followed, own, recorded, value_of
 from test_recalculation import MADE, edit, verdicts
 
 from mechsheet import evaluate
@@ -444,9 +444,7 @@ def test_a_place_taken_in_each_turn_is_followed_and_written(lines: str, tmp_path
     """What decides it stands in a turn of any number, of which neither cells nor a page can say anything."""
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table('2', 'Two', result)")
     names, recording = recorded(sheet)
-    for given in ELSEWHERE:
-        own_value = by_cells(sheet.path, ["result"], **given)["result"]
-        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    assert_followed(sheet, recording, ELSEWHERE)
     report.workbook("", {**names, "__file__": sheet.path}, {})
     assert "<table" in write.page(sheet, sheet.inputs())
 
@@ -457,11 +455,11 @@ def test_a_function_that_is_chosen_is_followed(lines: str, tmp_path: Path) -> No
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
     assert not recording.gaps
-    for given in [each for each in ELSEWHERE if "n" not in each] + [{"F": 3.5, "k": 3}, {"F": 4.0, "a": 0.25}]:
+    others = [each for each in ELSEWHERE if "n" not in each] + [{"F": 3.5, "k": 3}, {"F": 4.0, "a": 0.25}]
+    for given in others:
         known = numbers([*recording.guards], {recording.inputs[key]: float(x) for key, x in given.items()})
         assert all(known[guard] for guard in recording.guards), given
-        own_value = by_cells(sheet.path, ["result"], **given)["result"]
-        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    assert_followed(sheet, recording, others)
 
 
 @pytest.mark.parametrize("lines", READ_OTHERWISE)
@@ -476,9 +474,7 @@ def test_places_and_cases_are_followed_while_they_are_the_same(lines: str, tmp_p
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line")
     _, recording = recorded(sheet)
     assert not recording.gaps
-    for given in ({"F": 3.25}, {"F": 1.75, "a": 1.5}):
-        own_value = by_cells(sheet.path, ["result"], **given)["result"]
-        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    assert_followed(sheet, recording, ({"F": 3.25}, {"F": 1.75, "a": 1.5}))
     assert np.isnan(value_of(recording, "result", {"k": 1})).all()
 
 
@@ -492,9 +488,7 @@ def test_names_of_a_functions_own_are_not_those_of_another_cell(change: str, tmp
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * g.a  # [-] line", further=others)
     _, recording = recorded(sheet)
     assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
-    for given in ELSEWHERE:
-        own_value = by_cells(sheet.path, ["result"], **given)["result"]
-        np.testing.assert_allclose(value_of(recording, "result", given), own_value, rtol=1e-12, err_msg=str(given))
+    assert_followed(sheet, recording, ELSEWHERE)
 
 
 @pytest.mark.office

@@ -127,12 +127,13 @@ def whole(x: Quantity) -> Quantity:
 
 def is_count(x: Quantity) -> bool:
     """Whether a text has no decimals of it: of a whole number, and of what is counted in a row."""
-    return _is_whole(x.re, x.graph.whole | x.graph.counted)
+    return _is_whole(x.re, x.graph.whole, x.graph.counted)
 
 
 def as_count(made: Quantity, each: Quantity) -> Quantity:
     """What Python's own sum, least or greatest of some numbers is: counted where each of them is."""
-    made.graph.counted.update([made.re] if is_count(each) else ())
+    if is_count(each):
+        made.graph.counted.add(made.re)
     return made
 
 

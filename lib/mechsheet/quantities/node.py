@@ -237,14 +237,14 @@ def is_number(node: Node, number: float) -> bool:
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
 
 
-def is_whole(node: Node, known: Set[Node]) -> bool:
-    """Whether Python has a whole number there, where it has one at all; of some it is known."""
+def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset()) -> bool:
+    """Whether Python has a whole number there, where it has one at all; of some it is known, or they are as good."""
     if node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any():  # as of most: none looks further
         return False
     waiting, met, turned = [node], set[Node](), dict[Node, tuple[Node, Node]]()
     while waiting:
         part = waiting.pop()
-        if part in met or part in known or (part.value.dtype.kind in "iu" and part not in turned):
+        if part in met or part in known or part in counted or (part.value.dtype.kind in "iu" and part not in turned):
             continue
         met.add(part)
         if part in turned:

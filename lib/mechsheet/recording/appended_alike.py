@@ -1,8 +1,7 @@
 """Choices that append to the same lists whatever way they take: ``if v > w: T.append(v)``, ``else: T.append(w)``."""
 
 import ast
-from collections.abc import Iterator
-
+from mechsheet.recording.forms import appended
 from mechsheet.recording.ways import only_bind
 
 
@@ -25,22 +24,15 @@ def appended_alike(node: ast.If) -> list[ast.stmt] | None:
 def _parted(way: list[ast.stmt], line: int) -> tuple[list[ast.stmt], list[str]]:
     """What a way does before it appends, with names for what it then appends, and to which lists it does."""
     way = [new for each in way for new in (isinstance(each, ast.If) and appended_alike(each)) or [each]]
-    last = [*_last_appended(way)][::-1]
+    last = list[tuple[str, ast.expr]]()
+    while len(last) < len(way) and (found := appended(way[-1 - len(last)])):
+        last.insert(0, found)
     lists = [name for name, _ in last]
     if any(isinstance(part, ast.Name) and part.id in lists for _, value in last[1:] for part in ast.walk(value)):
         return way, []
     named = (ast.Assign([_item(line, n, ast.Store())], value) for n, (_, value) in enumerate(last))
     kept = way[: len(way) - len(last)]
     return [*kept, *(ast.copy_location(new, old) for new, old in zip(named, way[len(kept) :], strict=True))], lists
-
-
-def _last_appended(way: list[ast.stmt]) -> Iterator[tuple[str, ast.expr]]:
-    for each in reversed(way):
-        match each:
-            case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
-                yield name, value
-            case _:
-                return
 
 
 def _item(line: int, number: int, use: ast.expr_context | None = None) -> ast.Name:

@@ -4,11 +4,11 @@
 """
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from copy import deepcopy
 from functools import lru_cache
 
-from mechsheet.recording.forms import SCOPED
+from mechsheet.recording.forms import SCOPED, appended
 from mechsheet.worksheet.cells import Cell, Worksheet
 
 
@@ -103,7 +103,7 @@ def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tup
                 break
         body = rest
     each[-1].ifs = ifs
-    kept = [(name, ast.ListComp(value, deepcopy(each))) for line in body for name, value in _appended(line)]
+    kept = [(name, ast.ListComp(value, deepcopy(each))) for name, value in filter(None, map(appended, body))]
     names = [name for name, _ in kept]
     left = {part.id for own in each for part in ast.walk(own.target) if isinstance(part, ast.Name)}
     if not (ifs and kept) or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
@@ -111,12 +111,6 @@ def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tup
     parts = [part for _, some in kept for part in ast.walk(some)]
     read_or_bound = (isinstance(part, SCOPED) or (isinstance(part, ast.Name) and part.id in names) for part in parts)
     return [] if any(read_or_bound) else kept
-
-
-def _appended(line: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
-    match line:
-        case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
-            yield name, value
 
 
 def _loaded(of: ast.AST) -> set[str]:

@@ -145,6 +145,14 @@ def member(node: ast.Compare) -> ast.expr:
     return node
 
 
+def appended(line: ast.stmt) -> tuple[str, ast.expr] | None:
+    """The list to which a statement appends something, and what; None of any other."""
+    match line:
+        case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
+            return name, value
+    return None
+
+
 def formatted(node: ast.Call) -> ast.JoinedStr | None:
     """``"{:.2f} N".format(F)`` as ``f"{F:.2f} N"``, ``str(F)`` too; None of any other call, and of another format."""
     match node:

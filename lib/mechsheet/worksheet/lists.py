@@ -273,7 +273,8 @@ class Whole:
     than Python's, for columns may have any.
     """
 
-    __row__: ClassVar[Any]  # the class of one row, with its ``__properties__``
+    __row__: ClassVar[type]
+    __counted__: ClassVar[tuple[str, ...]]  # columns of whole numbers
 
     def __len__(self) -> int:
         return len(first_column(self))
@@ -282,9 +283,9 @@ class Whole:
         parts = {name: column[key] for name, column in vars(self).items()}
         alone = not any(getattr(part, "ndim", 0) for part in parts.values())  # a text has none
         found: Any = object.__new__(self.__row__ if alone else type(self))
-        for field in self.__row__.__properties__ if alone else ():
-            if field.counted and isinstance(parts[field.name], float):  # teeth of a row, ``range(stage.z)``
-                parts[field.name] = Count(parts[field.name])
+        for name in self.__counted__ if alone else ():
+            if isinstance(parts[name], float):  # teeth of a row, ``range(stage.z)``
+                parts[name] = Count(parts[name])
         for name, part in parts.items():
             object.__setattr__(found, name, part)
         return found
@@ -300,6 +301,7 @@ def first_column(table: Whole) -> Any:
 
 
 @cache
-def _unchecked(row: type) -> type:
+def _unchecked(row: Any) -> type:
     """The class of the rows for whole columns, whose numbers are checked with those of the other inputs."""
-    return type(row.__name__, (Whole, row), {"__post_init__": lambda _: None, "__row__": row})
+    counted = tuple(field.name for field in row.__properties__ if field.counted)
+    return type(row.__name__, (Whole, row), {"__post_init__": lambda _: None, "__row__": row, "__counted__": counted})
