@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,7 @@ from mechsheet.html import javascript, write
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.record import record
 from mechsheet.worksheet import cells, inputs
+from mechsheet.worksheet.errors import SheetError
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -127,6 +129,21 @@ def test_an_array_of_what_is_counted_takes_any_number(array: str, tmp_path: Path
     for x in (2.0, 2.75, -1.5):
         expected = sheet.run(["y"], {"g": inputs.build(sheet.inputs, {"x": x})})["y"]
         assert value_of(recording, "y", {"x": x}) == expected
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ("5; 1; 2", "teeth stages.z (1) = 5 must be > 5"),
+        ("20; 1; 2 | 20; 9; 2", "number of the ratio stages.k (2) = 9 must be <= 4"),
+        ("20.5; 1; 2", "teeth stages.z (1) = 20.5 must be a whole number"),
+        ("1e30; 1; 2", "teeth stages.z (1) = 1e+30 must be at most 9007199254740992 in size"),
+    ],
+)
+def test_what_is_counted_is_refused_without_decimals(rows: str, said: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, "y = 1.0  # [-] line")
+    with pytest.raises(SheetError, match=f"^{re.escape(said)}$"):
+        inputs.build(sheet.inputs, {"stages": rows})
 
 
 WORDS = """

@@ -73,7 +73,9 @@ def rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[A
         def refusal(i: int) -> SheetError:
             limit = f" = {_element(shown[other], i)}" if other else ""
             named = dataclasses.replace(field, name=f"{field.name} ({i + 1})") if field.many else field
-            return SheetError(f"{named.says(_element(shown[field.name], i))} must be {must}{limit}", named.name)
+            value = _element(shown[field.name], i)
+            value = int(value) if field.whole and abs(value) <= _EXACT and value == np.rint(value) else value
+            return SheetError(f"{named.says(value)} must be {must}{limit}", named.name)
 
         return refusal
 
