@@ -54,6 +54,10 @@ KEPT = [
         "def law(made=[]):\n    made.append(1)\n    n = len(made)\n    return lambda v: v * g.a + n\n"
         "y = sum(map(law(), [g.F, 2.0]))"
     ),
+    (
+        SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(d)\n"
+        "y = sum(filter(lambda d: d < 9 * g.F, D)) * g.a + ok[0]"
+    ),
     "y = sum(filter(None, [max(g.F - 2.5, 0.0), g.a, 2.0]))",
     "y = sum(map(int, [g.F * 2, g.a, 7.5])) + sum(map(max, [g.F, 2.0], [g.a, 3.0]))",
     "y = sum(map(round, [g.F * 1.3, g.a * 7.2])) + max(map(math.sin, [g.F, g.a]))",
@@ -102,6 +106,7 @@ RANKED = [  # rows in the order of a number of theirs
     "y = sum(k * v for k, v in enumerate(sorted([g.F, 2.0, g.a, 2.0], key=lambda v: -v)))",
 ]
 READ_OTHERWISE = [  # of which Python sees each element
+    SIZES + "d = 20.0\nok = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(d)\ny = d + sum(d for d in ok)",
     SIZES
     + "A = 5.0\nok = []\nfor d in D:\n    if d >= 3 * g.F:\n        A = d / 2\n        ok.append(A)\ny = ok[0] * g.a",
     SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F and len(ok) < 2:\n        ok.append(d)\ny = len(ok) * g.a",

@@ -1,6 +1,7 @@
 """Choices that append to the same lists whatever way they take: ``if v > w: T.append(v)``, ``else: T.append(w)``."""
 
 import ast
+
 from mechsheet.recording.forms import appended
 from mechsheet.recording.ways import only_bind
 

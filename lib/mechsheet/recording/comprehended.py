@@ -9,6 +9,7 @@ from copy import deepcopy
 from functools import lru_cache
 
 from mechsheet.recording.forms import SCOPED, appended
+from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 
 
@@ -105,7 +106,7 @@ def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tup
     each[-1].ifs = ifs
     kept = [(name, ast.ListComp(value, deepcopy(each))) for name, value in filter(None, map(appended, body))]
     names = [name for name, _ in kept]
-    left = {part.id for own in each for part in ast.walk(own.target) if isinstance(part, ast.Name)}
+    left = set[str]().union(*(_named(own.target) for own in each))
     if not (ifs and kept) or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
         return []
     parts = [part for _, some in kept for part in ast.walk(some)]
@@ -113,14 +114,15 @@ def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tup
     return [] if any(read_or_bound) else kept
 
 
-def _loaded(of: ast.AST) -> set[str]:
-    """Names that are read or deleted, but for what a loop or a comprehension there calls its own elements."""
+def _loaded(of: ast.stmt) -> set[str]:
+    """Names that are read or deleted, but for what a loop there calls its own elements."""
     parts = [*ast.walk(of)]
-    read = {part.id for part in parts if isinstance(part, ast.Name) and not isinstance(part.ctx, ast.Store)}
+    read = {name.id for name in source.read(of)}
+    read |= {part.id for part in parts if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Del)}
     read |= {part.target.id for part in parts if isinstance(part, ast.AugAssign) and isinstance(part.target, ast.Name)}
     read |= {name for part in parts if isinstance(part, ast.Global | ast.Nonlocal) for name in part.names}
-    targets = (name for part in parts if isinstance(part, _LOOPS) for name in ast.walk(part.target))
-    return read - {name.id for name in targets if isinstance(name, ast.Name)}
+    return read.difference(*(_named(part.target) for part in parts if isinstance(part, ast.For)))
 
 
-_LOOPS = ast.For, ast.comprehension
+def _named(target: ast.expr) -> set[str]:
+    return {part.id for part in ast.walk(target) if isinstance(part, ast.Name)}

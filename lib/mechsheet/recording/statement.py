@@ -52,7 +52,7 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
     attributes = [n for n in nodes if isinstance(n, ast.Attribute)]
     names = [n for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)]
     if any(isinstance(n, _SCOPES) for n in nodes):  # else all of them are the worksheet's
-        names = [*_read(statement, frozenset())]
+        names = [*source.read(statement)]
     own = frozenset(turned([statement]) if isinstance(statement, ast.For | ast.While) else ())
     names = [n for n in names if n.id not in own]
     of_parts = {id(n.value) for n in attributes}
@@ -70,39 +70,12 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
     )
 
 
-def _read(node: ast.AST, own: frozenset[str]) -> Iterator[ast.Name]:
-    """Names that are read of the worksheet: not the parameters and the others of functions and comprehensions."""
-    outside: list[ast.AST] = []
-    inner = own
-    match node:
-        case ast.Name(name, ast.Load()) if name not in own:
-            yield node
-        case ast.Lambda(args) | ast.FunctionDef(args=args):
-            outside = [*args.defaults, *filter(None, args.kw_defaults), *getattr(node, "decorator_list", ())]
-            inner |= _local(node)
-        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
-            outside = [node.generators[0].iter]
-            inner |= {name for each in node.generators for name in bound(each.target)}
-    for part in outside:
-        yield from _read(part, own)
-    for part in ast.iter_child_nodes(node):
-        yield from _read(part, inner)
-
-
-def _local(function: ast.Lambda | ast.FunctionDef) -> set[str]:
-    """Names of a function's own: its parameters, and what it binds but for what it calls the worksheet's."""
-    body = function.body if isinstance(function, ast.FunctionDef) else []
-    given = {n.arg for n in ast.walk(function.args) if isinstance(n, ast.arg)}
-    shared = (n for part in body for n in source.nodes(part) if isinstance(n, ast.Global))
-    return given.union(*map(bound, body)).difference(*(n.names for n in shared))
-
-
 def _of_worksheet(nodes: Iterable[ast.AST], found: Iterable[ast.Name]) -> Iterator[str]:
     """Those of the names that are found among some nodes that are not a function's own."""
     own = set[int]()
     for function in nodes:
         if isinstance(function, ast.Lambda | ast.FunctionDef):
-            local = _local(function)
+            local = source.local(function)
             own.update(id(n) for n in source.nodes(function) if isinstance(n, ast.Name) and n.id in local)
     yield from (name.id for name in found if id(name) not in own)
 

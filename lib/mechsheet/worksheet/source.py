@@ -208,6 +208,36 @@ def _bound(node: ast.AST) -> Iterator[str]:
                 waiting.append(inner)
 
 
+def read(node: ast.AST, own: frozenset[str] = frozenset()) -> Iterator[ast.Name]:
+    """Names that are read of the worksheet: not the parameters and the others of functions and comprehensions.
+
+    Of a tree that may be changed later too: nothing is kept of it.
+    """
+    outside: list[ast.AST] = []
+    inner = own
+    match node:
+        case ast.Name(name, ast.Load()) if name not in own:
+            yield node
+        case ast.Lambda(args) | ast.FunctionDef(args=args):
+            outside = [*args.defaults, *filter(None, args.kw_defaults), *getattr(node, "decorator_list", ())]
+            inner |= local(node)
+        case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp():
+            outside = [node.generators[0].iter]
+            inner |= {name for each in node.generators for name in _bound(each.target)}
+    for part in outside:
+        yield from read(part, own)
+    for part in ast.iter_child_nodes(node):
+        yield from read(part, inner)
+
+
+def local(function: ast.Lambda | ast.FunctionDef) -> set[str]:
+    """Names of a function's own: its parameters, and what it binds but for what it calls the worksheet's."""
+    body = function.body if isinstance(function, ast.FunctionDef) else []
+    given = {n.arg for n in ast.walk(function.args) if isinstance(n, ast.arg)}
+    shared = (n for part in body for n in ast.walk(part) if isinstance(n, ast.Global))
+    return given.union(*map(_bound, body)).difference(*(n.names for n in shared))
+
+
 def scopes_of(text: str, path: Path | str = "") -> list[SymbolTable]:
     """Those of the functions that stand outermost; from Python 3.14 on annotations have some too."""
     return [scope for scope in symtable(text, str(path), "exec").get_children() if scope.get_type() == "function"]
