@@ -351,10 +351,6 @@ WORDS = [  # one of two texts, and a condition as a number
     "kind = 'root' if g.F > 3 else 'flank'\nmatch kind:\n    case 'root':\n        y = g.a\n    case _:\n        y = 3",
     "y = np.array([g.a, 2.0])[int(g.F > 3)] * 2 * int(g.F < 4) + float(g.a > 1)",
 ]
-FOUND = (
-    "found = None\nfor d in (0.5, 1.0, 2.0, 3.0):\n    w = g.F / d\n    if w > 4 or w < 0.1:\n        continue\n"
-    "    if w < 1.2:\n        found = d\n        break\n"
-)
 AROUND = [  # lists and dictionaries around a function, whose elements it sets
     "n = [0]\ndef f(v):\n    n[0] += 1\n    return v * g.a\ny = find(f, 0, 99, equals=g.F).value",
     "h = {0: g.a}\ndef f(n):\n    if n not in h:\n        h[n] = f(n - 1) * g.F + n\n    return h[n]\ny = f(4)",
@@ -391,8 +387,6 @@ APPENDED = [  # to the same lists whatever a condition says
 GUARDED = [  # where other inputs change what there is
     "T = [('M6', 6), ('M10', 10)]\nname, d = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(name)",
     "T = [('M6', 6), ('M10', 10)]\nrow = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * len(row[0])",
-    FOUND + "y = found * g.a if found is not None else -1.0",
-    FOUND.replace("1.2", "0.9") + "y = found * g.a if found is not None else -1.0",
     "for d in (6.0, 8.0, 16.0):\n    if d > 3 * g.F:\n        break\nelse:\n    raise ValueError('none')\ny = d * g.a",
     "if g.F > 3:\n    v = g.F\n    kind = 'much'\nelse:\n    v = g.a\n    kind = 'some'\ny = v * len(kind)",
     "d = {}\nif g.F > 3:\n    d['x'] = g.a\ny = len(d) + g.F",

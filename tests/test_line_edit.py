@@ -278,7 +278,7 @@ def test_cells_of_the_page_are_told_from_those_of_the_file(path: Path) -> None:
 def test_what_is_shown_as_one_types_alters_nothing_of_the_page(new: str) -> None:
     names = {"phi": np.array([3.0, 1.0]), "parts": [1, 2], "rows": {"b": [2]}}
     shown = in_place._computed((), "k", "k = 1", f"k = {new}  # [-] k", False, dict(names))
-    assert "is no number: it has no [unit]" in shown or "__imul__" in new
+    assert "no number" in shown or "__imul__" in new
     assert names["phi"].tolist() == [3.0, 1.0] and names["parts"] == [1, 2] and names["rows"] == {"b": [2]}
 
 

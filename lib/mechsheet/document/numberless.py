@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mechsheet.document.left_out import is_numeric
 from mechsheet.worksheet.lines import Formula, names_read, registry
+from mechsheet.worksheet.numbers import existing
 
 _FEW = 4  # places that are named
 
@@ -24,7 +25,7 @@ class Numberless(NamedTuple):
 def numberless(names: Mapping[str, Any], known: Mapping[str, Formula] | None = None) -> Iterator[Numberless]:
     """The lines, all or the ``known`` ones, where a run's numbers get lost: at them, not at what rests on them."""
     for line in (registry(names) if known is None else known).values():
-        lost = _lost(names[line.name])
+        lost = _lost(existing(names[line.name]))
         if lost.any() and not any(_lost(_read(names, name)).any() for name in names_read(line)):
             yield Numberless(line, _where(lost))
 

@@ -260,7 +260,7 @@ def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset()) -> 
             case "join":
                 waiting += part.args[0]
             case "where":
-                waiting += (way for way in part.args[1:] if not np.isnan(way.value).all())
+                waiting += (way for way in part.args[1:] if not (way.op in LEAVES and np.isnan(way.value).all()))
             case "add" | "sub" | "mul" | "neg" | "mod" | "max" | "min" | "abs":
                 waiting += part.args
             case _:

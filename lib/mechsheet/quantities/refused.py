@@ -75,6 +75,14 @@ def refused(value: Any, read: bool = True) -> Any:
     return value
 
 
+def unless(holds: Quantity, value: Any) -> Any:
+    """Numbers for which Python has an error where a condition does not hold, once it makes anything of them."""
+    for each in _telling(value):
+        for part in each.parts:
+            each.graph.refused[part] = _all(each.graph, [holds.re, _exists(each.graph, part)])
+    return value
+
+
 def pointed(value: Any, container: Any) -> Any:
     """What computed places in a container point at, for which Python has an error where there are none."""
     own = {part for each in _telling(container) for part in each.parts}
@@ -120,8 +128,9 @@ def _tell(graph: Graph, exist: Sequence[Node | None]) -> None:
     """Note conditions under which Python has no error for what it computes now."""
     # Of other ways that are supposed nobody knows here when they are gone.
     if any(exist) and graph.supposed == _rows.get() + sum(not way.value for way in graph.ways):
-        for each in filter(None, exist):
-            note(on_ways(Quantity(graph, each)))
+        for each in (Quantity(graph, node) for node in exist if node):
+            if not sure(each):
+                note(on_ways(each))
 
 
 def needed(holds: Quantity, why: str) -> None:
@@ -149,6 +158,22 @@ def note(exists: Quantity, why: str = _WHY) -> None:
 def on_ways(holds: Quantity) -> Any:
     """Whether a condition holds, or the ways that are recorded now are not gone."""
     return reduce(lambda held, way: held | elementwise("not")(way), holds.graph.ways, holds)
+
+
+def sure(holds: Quantity) -> bool:
+    """Whether a condition is that of a way that is recorded now."""
+    return any(says(way, holds) for way in holds.graph.ways)
+
+
+def says(way: Quantity, holds: Quantity) -> bool:
+    """Whether two conditions are the same one."""
+    return _affirmed(way.re) is _affirmed(holds.re)
+
+
+def _affirmed(node: Node) -> Node:
+    while node.op == "not" and node.args[0].op == "not":
+        node = node.args[0].args[0]
+    return node
 
 
 def _exists(graph: Graph, node: Node) -> Node | None:

@@ -1,5 +1,6 @@
 """A text with recorded numbers in it, which is written where these are known; Python sees it as the text of now."""
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from mechsheet.quantities.arithmetic import choice, is_count
 from mechsheet.quantities.graph import Guard, current
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import regrouped
+from mechsheet.quantities.perhaps import Perhaps, itself, settled, some_of, there
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.kinds import Chosen, place
 
@@ -29,7 +31,8 @@ class Number(NamedTuple):
 
     def now(self) -> str:
         value = self.value.re.value.item()
-        text: str = (int(value) if self.spec.endswith("d") else value).__format__(self.spec)
+        spec = self.spec if math.isfinite(value) else self.spec.removesuffix("d")  # where nobody reads it
+        text: str = (int(value) if spec.endswith("d") else value).__format__(spec)
         return reduce(lambda told, pair: told.replace(*pair), self.instead, f"{text:{self.blanks}}")
 
 
@@ -235,6 +238,10 @@ def said(value: Any) -> Any:
 def _shown(value: Any, spec: str) -> Iterator[Any]:
     """Pieces of a text for a value in its format."""
     blanks = end = ""
+    if isinstance(value, Perhaps) and not spec:
+        yield from either(some_of(value), Written(tuple(_pieces([*_shown(itself(value), "")]))), "None").parts
+        return
+    value = there(value)
     if isinstance(value, Quantity) and value.graph.draws and (wide := re.fullmatch(_WIDE, spec)):
         spec, blanks = wide[2] + wide[4], (wide[1] or ">") + wide[3]
     if isinstance(value, Chosen):
@@ -256,7 +263,7 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
 
 def joined(sign: Any, parts: Any) -> Any:
     """``sign.join(parts)`` of texts, some of them with recorded numbers in them."""
-    each = list(parts) if isinstance(sign, str | Written) else None
+    each = [*map(there, parts)] if isinstance(sign, str | Written) else None
     if each is None or not any(isinstance(part, Written) for part in (sign, *each)):
         return sign.join(parts if each is None else each)
     pieces = [piece for part in each for piece in (sign, part)][1:]
@@ -277,7 +284,8 @@ def seen(value: Any) -> Any:
 
 
 def looked_at(value: Any) -> Any:
-    """A value for what shows it, which is of the texts in it that are said now."""
+    """A value for what shows it, which is of the texts in it that are said now, and is there or is none."""
+    value = settled(value)
     if isinstance(value, Written) and not current.get().draws:
         return str(value)
     if isinstance(value, tuple | list) and any(isinstance(part, Written) for part in value):

@@ -12,7 +12,7 @@ from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import lift
 from mechsheet.quantities.refused import refused
-from mechsheet.recording.choices import UNBOUND, _missing, is_condition, part_of, way_may_change
+from mechsheet.recording.choices import UNBOUND, _missing, is_condition, merged, part_of, way_may_change
 
 Pair = tuple[Any, Callable[..., Any]]  # whether an element is kept, and what gives its value
 
@@ -86,7 +86,7 @@ def _least(fold: Callable[[Any, Any], Any]) -> Callable[..., Any]:
             result = where(graph, holds, where(graph, some, fold(result, value), value), result)
             some = some | holds
         if otherwise:
-            return where(graph, some, result, otherwise[0])
+            return merged(some, result, otherwise[0])
         return refused(result) if some.value or graph.supposed else None
 
     return function

@@ -1,8 +1,7 @@
 """What Python decides by itself, for recorded quantities: which of two numbers, which element, the greater of some."""
 
-import builtins
 import operator
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from copy import copy
 from functools import partial, reduce
 from types import FunctionType
@@ -10,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import choice as where
-from mechsheet.quantities.arithmetic import none_like, trunc, whole
+from mechsheet.quantities.arithmetic import elementwise, none_like, trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
-from mechsheet.quantities.refused import compared, pointed, refused
+from mechsheet.quantities.refused import compared, pointed, refused, says, unless
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
@@ -31,7 +31,6 @@ from mechsheet.worksheet.lists import Whole, first_column
 
 NUMBERS = int | float | complex | np.number | Quantity
 ARRAYS = NUMBERS | np.bool_ | np.ndarray
-_SORTED = 10  # rows that are put in order: each may stand at each place
 _ROWS = 200  # of a table at which a quantity points
 _DEEPEST = 8  # ways in one another that are recorded though Python does not take them
 
@@ -50,7 +49,11 @@ def is_condition(value: Any) -> bool:
 
 
 def as_condition(value: Any) -> Any:
-    """Whether a list of those that are kept has any; anything else as it is."""
+    """Whether a list of those that are kept has any, or what may be None is there and not 0; all else as it is."""
+    if isinstance(value, perhaps.Number):
+        return value.some & (perhaps.itself(value) != 0)
+    if isinstance(value, perhaps.Row) and not isinstance(held := perhaps.itself(value), Written):
+        return perhaps.some_of(value) if held else value
     return value.some if isinstance(value, Sifted) and value.pairs else value
 
 
@@ -96,7 +99,8 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
             raise NotRecorded("the way that is not taken changes something")
     if both is None:
         graph.looked = looked
-        bool(condition)
+        if value is not None or other is not None:
+            bool(condition)
         return value
     return both
 
@@ -105,6 +109,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     """``x`` where the condition holds, else ``y``; None where these are not of one kind."""
     if x is y:
         return x
+    if x is None or y is None or isinstance(x, perhaps.Perhaps) or isinstance(y, perhaps.Perhaps):
+        return _perhaps(condition, x, y)
     if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
     if x is UNBOUND or y is UNBOUND:
@@ -124,6 +130,29 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if isinstance(x, FunctionType | np.poly1d) and isinstance(y, FunctionType | np.poly1d):
         return lambda *given, **named: _chosen(condition, x, y, *given, **named)
     return parted(partial(_part_of, condition), x, y)
+
+
+def _perhaps(condition: Quantity, x: Any, y: Any) -> Any:
+    """The same of values that may be None; conditions that may be are not followed."""
+    if x is UNBOUND or y is UNBOUND:
+        return None
+    ways = [_missing(perhaps.itself(b)) if a is None else perhaps.itself(a) for a, b in ((x, y), (y, x))]
+    both = None if any(a is UNBOUND or _is_truth(a) for a in ways) else merged(condition, *ways)
+    if both is None:
+        return None
+    truth = condition.reshape(()) if condition.dtype == bool else condition.reshape(()) != 0
+    some = [
+        says(way, holds) or holds if isinstance(holds := perhaps.some_of(a), Quantity) else holds
+        for way, a in ((truth, x), (elementwise("not")(truth), y))
+    ]
+    if all(holds is True for holds in some):
+        return both
+    there = where(condition.graph, truth, *some)
+    return (perhaps.Number if isinstance(both, Quantity) else perhaps.Row)(there, unless(there, both))
+
+
+def _is_truth(value: Any) -> bool:
+    return isinstance(value, bool | np.bool_) or (isinstance(value, Quantity) and value.dtype == bool)
 
 
 def _part_of(condition: Quantity, x: Any, y: Any) -> Any:
@@ -159,6 +188,8 @@ def _lengths(value: Any) -> tuple[Any, ...]:
 
 def _missing(value: Any) -> Any:
     """What stands for a number on a way where the worksheet has none, or for a text."""
+    if value is None:
+        return None
     if isinstance(value, str | Written):
         return _NOTHING
     if isinstance(value, tuple | list):
@@ -189,6 +220,8 @@ def way_may_change(f: Callable[..., Any]) -> bool:
 
 def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
+    if isinstance(key, perhaps.Row):
+        key = perhaps.settled(key) if None in container else perhaps.there(key)
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option(container, key, is_it)
     if isinstance(key, Written) and isinstance(container, dict):
@@ -210,7 +243,7 @@ def element(container: Any, key: Any) -> Any:
             if isinstance(container, dict):
                 return container[key.seen().item()]  # as above
             raise IndexError(f"no element {key.value}")
-        if all(isinstance(value, NUMBERS) for value in values.values()):
+        if all(map(is_there, values.values())):
             return refused(_at_key(values, key, np.nan))
         row = _row_at(values, key)
     if row is not None:
@@ -219,6 +252,11 @@ def element(container: Any, key: Any) -> Any:
     if seen.size != 1:
         return container[seen]
     return container[int(seen.item()) if isinstance(container, list | tuple) else seen.item()]
+
+
+def is_there(value: Any, kinds: Any = NUMBERS) -> bool:
+    """Whether a number of some kinds, and None for no inputs."""
+    return isinstance(value, kinds) and not isinstance(value, perhaps.Number)
 
 
 def _row_at(values: dict[Any, Any], key: Quantity) -> Any:
@@ -270,13 +308,14 @@ def got(container: Any, key: Any, *otherwise: Any) -> Any:
     """``container.get(key, otherwise)``, where the key may be a quantity, a chosen option or a text of it."""
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option({option: container.get(option, *otherwise) for option in is_it}, key, is_it)
-    known = isinstance(container, dict) and isinstance(key, Quantity) and key.single and otherwise
-    if known and all(isinstance(v, NUMBERS) for v in (*container, *container.values(), *otherwise)):
-        return _at_key(container, key, *otherwise)
-    if known and all(isinstance(v, NUMBERS) for v in container):
-        result = otherwise[0]
-        for each, value in container.items():
-            result = None if result is None else part_of(key == each, value, result)
+    default = otherwise[0] if otherwise else None
+    known = isinstance(container, dict) and isinstance(key, Quantity) and key.single
+    if known and all(map(is_there, (*container, *container.values(), default))):
+        return _at_key(container, key, default)
+    if known and all(isinstance(each, NUMBERS) for each in container):
+        result = default
+        for n, (each, value) in enumerate(container.items()):
+            result = None if n and result is None else part_of(key == each, value, result)
         if result is not None:
             return result
     return container.get(key.seen().item() if isinstance(key, Quantity) else key, *otherwise)
@@ -310,103 +349,16 @@ def _of_option(container: dict[Any, Any], key: Any, is_it: dict[str, Any]) -> An
     return container[key] if result is None else result
 
 
-def _is_whole(values: Any) -> bool:
+def is_whole(values: Any) -> bool:
     """Whether there is no telling how many numbers these are for other inputs."""
     return isinstance(values, Selected) or is_any_length(values)
-
-
-def _extreme(name: str) -> Callable[..., Any]:
-    fold = {"max": np.maximum, "min": np.minimum}[name]
-
-    def function(*args: Any, **kwargs: Any) -> Any:
-        if len(args) == 1 and not kwargs and _is_whole(args[0]):
-            return args[0].reduced(name)
-        if len(args) == 1 and len(kwargs) <= 1 and isinstance(args[0], Sifted) and args[0].pairs:
-            return args[0].of(f"{name} by" if "key" in kwargs else name, *kwargs.values())
-        values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
-        key = kwargs.get("key") or (lambda value: value)
-        keys = [key(value) for value in values]
-        if kwargs.keys() - {"key"} or not has_quantity(keys):
-            return getattr(builtins, name)(*args if len(args) > 1 else [values], **kwargs)
-        if not kwargs and not any(isinstance(value, tuple | list) for value in values):
-            return reduce(fold, values)
-        result, best = values[0], keys[0]
-        for value, own in zip(values[1:], keys[1:], strict=True):
-            wins = _is_above(own, best) if name == "max" else _is_above(best, own)
-            result, best = merged(wins, value, result), merged(wins, own, best)
-            if result is None or best is None:
-                return getattr(builtins, name)(values, **kwargs)
-        return result
-
-    return function
-
-
-def _is_above(x: Any, y: Any) -> Any:
-    """``x > y``, of rows of numbers by the first one that differs."""
-    if not isinstance(x, tuple | list):
-        return lift(current.get(), x) > y
-    if not x:
-        return lift(current.get(), False)
-    first = lift(current.get(), x[0])
-    return (first > y[0]) | ((first == y[0]) & _is_above(x[1:], y[1:]))
-
-
-def placed(values: Any, value: Any) -> Any:
-    """``values.index(value)``: the first place of a number in a list."""
-    if not isinstance(values, list | tuple) or not has_quantity([values, value]):
-        return values.index(str(value) if isinstance(values, str) else value)
-    if not all(isinstance(v, NUMBERS) for v in (*values, value)):
-        return values.index(value)
-    hit = lift(current.get(), values) == value
-    some = hit.reduced("any")
-    if not some.value:
-        raise ValueError("it is not in the list")
-    place: Quantity = refused(where(current.get(), some, np.argmax(hit), np.nan))
-    return place
-
-
-def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> Any:
-    """Python's sorted: numbers by their size, a few rows by numbers of theirs, all else as it is sorted now."""
-    each = list(values)
-    if key is None and has_quantity(each) and all(isinstance(v, NUMBERS) for v in each):
-        found: Any = np.sort(lift(current.get(), each))
-        return list(found)[::-1] if reverse else list(found)
-    keys = [key(value) for value in each] if key is not None and 1 < len(each) <= _SORTED else []
-    follows = has_quantity(keys) and all(isinstance(k, NUMBERS) for k in keys) and not isinstance(reverse, Quantity)
-    return (follows and _by_rank(each, keys, bool(reverse))) or sorted(each, key=key, reverse=reverse)
-
-
-def _by_rank(each: list[Any], keys: list[Any], reverse: bool) -> list[Any] | None:
-    """The rows in the order of their keys, those of equal ones as they stand; None of what is no row."""
-    graph, later = current.get(), operator.gt if reverse else operator.lt
-    own = [lift(graph, key) for key in keys]
-    if not all(key.single and key.im is None for key in own):
-        return None
-    ranks = [
-        sum(later(b, a) | (b == a) if n < k else later(b, a) for n, b in enumerate(own) if n != k)
-        for k, a in enumerate(own)
-    ]
-    finite: Any = np.isfinite(lift(graph, own))
-    if not (exist := finite.reduced("all")).value:
-        return None
-    result = list[Any]()
-    for place in range(len(each)):
-        (now,) = (row for row, rank in zip(each, ranks, strict=True) if rank.value == place)
-        for row, rank in zip(each, ranks, strict=True):
-            now = now if now is None else part_of(rank == place, row, now)
-        result.append(now)
-    if any(row is None for row in result):
-        return None
-    if exist.re not in graph.fixed and any(key.re not in graph.always for key in own):
-        bool(exist)  # of what is no number nobody knows the order
-    return result
 
 
 def total(values: Any, start: Any = 0) -> Any:
     """Python's sum."""
     if isinstance(values, Sifted) and values.pairs:
         return values.of("sum", start)
-    return values.reduced("sum") + start if _is_whole(values) else exactly.added(values, start)
+    return values.reduced("sum") + start if is_whole(values) else exactly.added(values, start)
 
 
 def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
@@ -433,7 +385,7 @@ CALLS: dict[str, Any] = {
     "choice": choice, "said": said, "element": element, "get": got,
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined_kept,
-    "max": _extreme("max"), "min": _extreme("min"), "round": exactly.rounded, "sorted": ranked, "place": placed,
+    "round": exactly.rounded,
     "float": _number(float, lambda x: x), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
     "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else exactly.powered(*x),

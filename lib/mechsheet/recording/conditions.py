@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import elementwise
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.quantity import Quantity, has_quantity
@@ -64,8 +65,14 @@ def member(value: Any, several: Any) -> Any:
     return reduce(operator.or_, same, False)
 
 
+def none(value: Any) -> Any:
+    """``value is None``: of what may be None the condition."""
+    return elementwise("not")(perhaps.some_of(value)) if isinstance(value, perhaps.Perhaps) else value is None
+
+
 def matched(value: Any) -> Any:
-    """A value that is compared with True and False themselves, which no quantity is."""
+    """A value that is compared with True and False themselves, which no quantity is, or is matched with a pattern."""
+    value = perhaps.settled(value)
     if isinstance(value, tuple | list) and has_quantity(value):
         return regrouped(value, map(matched, value))
     return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
@@ -87,10 +94,10 @@ def _whether(values: Any, kind: str, fold: Callable[[Any, Any], Any]) -> Any:
     frame = values.gi_frame if isinstance(values, GeneratorType) else None
     if frame and may_change([frame.f_code], frame.f_globals):
         return getattr(builtins, kind)(values)  # of which the last ones may not be asked for
-    each = list(values)
+    each = [as_condition(value) for value in values]
     if not any(map(is_condition, each)) or not all(isinstance(x, ARRAYS) for x in each):
         return getattr(builtins, kind)(each)
     return reduce(fold, (x != 0 if isinstance(x, Quantity) and x.dtype != bool else x for x in each))
 
 
-CALLS: dict[str, Any] = {"and": both, "or": any_of, "not": negated, "matched": matched, "member": member}
+CALLS: dict[str, Any] = {"and": both, "or": any_of, "not": negated, "none": none, "matched": matched, "member": member}

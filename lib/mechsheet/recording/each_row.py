@@ -17,10 +17,10 @@ from mechsheet.quantities.refused import pointed, refused
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.ufunc_rules import finite
-from mechsheet.recording import choices, loops, per_row
+from mechsheet.recording import loops, ordered, per_row
 from mechsheet.recording.among import of_all
 from mechsheet.recording.by_size import decide
-from mechsheet.recording.choices import part_of, way_may_change
+from mechsheet.recording.choices import merged, part_of, way_may_change
 from mechsheet.recording.loops import Turns
 from mechsheet.recording.per_row import Together, columns
 from mechsheet.recording.sifted import Sifted
@@ -141,7 +141,7 @@ def placed(values: Any, value: Any) -> Any:
     """``values.index(value)``: the first place of a number in a list."""
     column = values.column() if isinstance(values, EachRow) else None
     if column is None or not isinstance(value, Quantity | int | float) or isinstance(column, Selected):
-        return choices.placed(values, value)
+        return ordered.placed(values, value)
     hit: Quantity = column == value
     if not (some := hit.reduced("any")).value:
         return list(values).index(value)
@@ -207,7 +207,7 @@ class EachRow(Sifted, Listed):
         name, _, by = kind.partition(" ")
         if self.every and name in ("min", "max"):
             named = {"key" if by else "default": one for one in otherwise}
-            return choices.CALLS[name]([self.parts[k] for k in each], **named)
+            return ordered.CALLS[name]([self.parts[k] for k in each], **named)
         return of_all(kind, [(self.holds[k], lambda k=k: self.parts[k]) for k in each], otherwise)
 
     def followed(self, kind: str, *otherwise: Any) -> Any:
@@ -254,7 +254,7 @@ class EachRow(Sifted, Listed):
         if not (some.value or given or graph.supposed):
             return None
         least = Selected(self.parts, self.holds).filled(kind).reduced(kind)
-        return where(graph, some, least, *given) if given else refused(where(graph, some, least, np.nan))
+        return merged(some, least, given[0]) if given else refused(where(graph, some, least, np.nan))
 
     @property
     def some(self) -> Quantity:

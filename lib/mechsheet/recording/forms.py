@@ -135,13 +135,19 @@ def gone_through(items: ast.expr) -> ast.expr:
     return items
 
 
-def member(node: ast.Compare) -> ast.expr:
-    """Whether a value is one of several, as a call; any other comparison as it is."""
-    match node.ops[0]:
-        case ast.In():
-            return call("member", node, node.left, *node.comparators)
-        case ast.NotIn():
-            return call("not", node, call("member", node, node.left, *node.comparators))
+def asked(node: ast.Compare) -> ast.expr:
+    """``x in several``, ``x is None`` and what is the opposite of them as calls; any other comparison as it is."""
+    match node:
+        case ast.Compare(x, [ast.In()], several):
+            return call("member", node, x, *several)
+        case ast.Compare(x, [ast.NotIn()], several):
+            return call("not", node, call("member", node, x, *several))
+        case ast.Compare(x, [ast.Is()], [ast.Constant(None)]):
+            return call("none", node, x)
+        case ast.Compare(x, [ast.IsNot()], [ast.Constant(None)]):
+            return call("not", node, call("none", node, x))
+        case ast.Compare(x, [ast.Is() | ast.IsNot()]):
+            node.left = call("matched", node, x)
     return node
 
 

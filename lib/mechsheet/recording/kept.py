@@ -7,7 +7,7 @@ from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.recording import choices
+from mechsheet.recording import ordered
 from mechsheet.recording.among import Pair, of_all, plainly
 from mechsheet.recording.choices import is_condition, way_may_change
 from mechsheet.recording.each_row import EachRow, each_row, every_row
@@ -70,7 +70,7 @@ def sifted(pairs: Iterable[Pair] | EachRow) -> list[Any]:
 
 
 def _extreme(name: str) -> Callable[..., Any]:
-    otherwise = choices.CALLS[name]
+    otherwise = ordered.CALLS[name]
 
     def function(*given: Any, **named: Any) -> Any:
         rows = every_row(given[0]) if len(given) == 1 and [*named] == ["key"] else None
@@ -84,7 +84,7 @@ def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> A
     """Python's sorted, of the rows of a table however many these are."""
     rows = None if isinstance(reverse, Quantity) else every_row(values)
     found = None if rows is None else rows.in_order(key, bool(reverse))
-    return choices.ranked(values, key=key, reverse=reverse) if found is None else found
+    return ordered.ranked(values, key=key, reverse=reverse) if found is None else found
 
 
 CALLS: dict[str, Any] = {

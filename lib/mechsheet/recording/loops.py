@@ -4,43 +4,67 @@ import operator
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, Sized, ValuesView
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import partial, reduce
+from functools import reduce
 from itertools import repeat
 from types import FunctionType
 from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import imaginary, is_count, none_like
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
-from mechsheet.quantities.quantity import Quantity, has_quantity, lift, quantities
-from mechsheet.quantities.refused import Turn, is_pythons, note, on_ways
-from mechsheet.recording.choices import ARRAYS, UNBOUND, is_condition, part_of
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.quantities.refused import Turn, is_pythons, note, on_ways, unless
+from mechsheet.recording.choices import ARRAYS, NUMBERS, UNBOUND, is_condition, is_there, part_of
 from mechsheet.recording.in_place import of_now
 
 
-def iterated(turn: FunctionType, items: Any, item: int | None, unread: str, *state: Any) -> Any:
+def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
     """What the names of a loop are in the end; ``turn`` tells whether it ends, and what they are after it.
 
-    The name number ``item`` is the next one of the ``items``. What is None at first, and no turn looks at, as the
-    numbers of the ``unread`` ones tell, is a number in the end, or the loop is none that readers repeat.
+    The name number ``item`` is the next one of the ``items``.
     """
     items = list(items) if isinstance(items, Mapping | KeysView | ValuesView | ItemsView) else items
-    none = [n for n in map(int, unread.split()) if state[n] is None]
+    none = [n for n, x in enumerate(state) if x is None]
     if none and not hasattr(items, "__next__"):
-        graph = current.get()
-        looked = dict(graph.looked)
-        found = _iterated(turn, items, item, *(UNBOUND if n in none else x for n, x in enumerate(state)))
-        numbers = [[*quantities(found[n])] for n in none]
-        if all(numbers) and all(np.isfinite(x.value).all() for own in numbers for x in own):
-            known = [np.isfinite(x).all() for own in numbers for x in own]
-            graph.see(reduce(operator.and_, map(partial(lift, graph), known)).re)
-            return found
-        graph.looked = looked
+        apart, looked = _Apart(turn, none), dict(current.get().looked)
+        try:
+            return apart.whole(_iterated(apart, items, item, *apart.parts(state)))
+        except NotRecorded:
+            current.get().looked = looked
     return _iterated(turn, items, item, *state)
+
+
+class _Apart:
+    """A turn of a loop of which some names are None at first: of each its number, and whether it is there."""
+
+    def __init__(self, turn: Callable[..., Any], names: Sequence[int]) -> None:
+        self._turn, self._names = turn, names
+
+    def __call__(self, *parts: Any) -> tuple[Any, ...]:
+        ends, *after = self._turn(*self.whole(parts))
+        return ends, *self.parts(after)
+
+    def parts(self, state: Sequence[Any]) -> tuple[Any, ...]:
+        """The state, and behind it whether each of the names is there."""
+        numbers = [perhaps.itself(x) if n not in self._names or x is not None else np.nan for n, x in enumerate(state)]
+        if not all(isinstance(numbers[n], NUMBERS) for n in self._names):
+            raise NotRecorded("it is None or no number")
+        return (*numbers, *(perhaps.some_of(state[n]) for n in self._names))
+
+    def whole(self, parts: Sequence[Any]) -> tuple[Any, ...]:
+        """The state itself."""
+        state, graph = [*parts[: -len(self._names)]], current.get()
+        for n, there in zip(self._names, parts[-len(self._names) :], strict=True):
+            if is_condition(there):
+                state[n] = perhaps.Number(there, unless(there, lift(graph, state[n])))
+            else:
+                state[n] = state[n] if there else None
+        return tuple(state)
 
 
 class Turns:
@@ -106,7 +130,7 @@ _PUT: dict[str, tuple[Callable[[Any, Any], Any], int]] = {"sum": (operator.add, 
 
 
 @turning()
-def _iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
+def _iterated(turn: Callable[..., Any], items: Any, item: int | None, *state: Any) -> Any:
     """The same. A page also needs to know that Python has no error in any turn."""
     if not current.get().draws:
         return _followed(turn, items, item, *state)
@@ -248,7 +272,7 @@ def _repeated(
         outer.has_loops = True
     if outer and not outer.of_any:
         return None
-    if not all(isinstance(x, ARRAYS) or x is UNBOUND for x in (*first, *last)):
+    if not all(is_there(x, ARRAYS) or x is UNBOUND for x in (*first, *last)):
         return None
     graph = current.get()
     met = {holds: guard for holds, guard in graph.looked.items() if holds not in looked}
@@ -268,6 +292,7 @@ def _repeated(
         made = [lift(graph, x) for x in (*after, number + 1)]
         inside = graph.looked  # what Python sees of other things holds for all turns
         followed = met and free_of(nodes, inside | graph.numbered) and is_condition(ends)
+        followed = followed and all(is_there(x, ARRAYS) for x in after)
         numbered |= graph.numbered if followed else {}
     except (Exception, NotRecorded):
         followed = False

@@ -22,6 +22,7 @@ from mechsheet.recording import (
     kept,
     loops,
     named,
+    ordered,
     own_arrays,
     per_row,
     raised,
@@ -34,6 +35,7 @@ from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
     as_choice,
+    asked,
     by_percent,
     call,
     formatted,
@@ -44,7 +46,6 @@ from mechsheet.recording.forms import (
     later,
     left_for,
     listed,
-    member,
     of_kept,
     of_rows,
     one_by_one,
@@ -56,6 +57,7 @@ from mechsheet.recording.forms import (
 from mechsheet.recording.summed import as_sums
 from mechsheet.recording.ways import (
     deleted,
+    ended,
     ends,
     is_of_the_whole,
     looking,
@@ -67,8 +69,9 @@ from mechsheet.recording.ways import (
 from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
-CALLS = choices.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS | raised.CALLS
-CALLS |= per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS | named.CALLS
+CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
+CALLS |= raised.CALLS | per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS
+CALLS |= named.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {
     *("float", "int", "complex", "len", "max", "min", "pow", "round"),
@@ -186,9 +189,7 @@ class _Rewriting(ast.NodeTransformer):
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
         if len(node.ops) == 1:
-            if isinstance(node.ops[0], ast.Is | ast.IsNot):
-                node.left = call("matched", node, node.left)
-            return member(node)
+            return asked(node)
         sides = [node.left, *node.comparators]
         pairs = zip(sides, node.ops, sides[1:], strict=False)
         parts = [ast.copy_location(ast.Compare(a, [op], [b]), node) for a, op, b in pairs]
@@ -300,10 +301,7 @@ class _Rewriting(ast.NodeTransformer):
         asked = ("" if name in inner else name for name in names)
         known = call("known", node, _call_of("locals"), *map(ast.Constant, asked))
         place = ast.Constant(names.index(item) if item else None)
-        loaded = (part for line in body for part in ast.walk(line) if isinstance(part, ast.Name))
-        read = {part.id for part in loaded if isinstance(part.ctx, ast.Load)}
-        unread = ast.Constant(" ".join(str(n) for n, name in enumerate(names) if name not in read))
-        now: list[ast.expr] = [ast.Name("recorded turn", ast.Load()), items, place, unread]
+        now: list[ast.expr] = [ast.Name("recorded turn", ast.Load()), items, place]
         ended = call("iterated", node, *now, ast.Starred(known, ast.Load()))
         targets: list[ast.expr] = [ast.Name(name, ast.Store()) for name in names]
         bind = ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], ended), node)
@@ -320,7 +318,7 @@ class _Rewriting(ast.NodeTransformer):
         """Where a way of a function ends early, the rest of the function is the other way."""
         own = set[str]() if self.within else own_arrays.of_its_own(node)
         if not any(is_of_the_whole(part) for part in ast.walk(node)):
-            node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in node.body]
+            node.body = [as_choice(line) or line if isinstance(line, ast.Match) else line for line in ended(node)]
             for n, line in enumerate(node.body):
                 if isinstance(line, ast.For) and ends(node.body[n + 1 :]) and (left := left_for(line)):
                     node.body[n:] = [*looking(line, node.body[n + 1 :]), left]

@@ -131,6 +131,14 @@ def _has_of_the_whole(part: ast.AST) -> bool:
     return any(map(is_of_the_whole, ast.walk(part)))
 
 
+def ended(function: ast.FunctionDef) -> list[ast.stmt]:
+    """What a function does, which gives None in the end where it gives something before."""
+    gives = any(isinstance(part, ast.Return) and part.value for line in function.body for part in ast.walk(line))
+    if not gives or ends(function.body):
+        return function.body
+    return [*function.body, ast.copy_location(ast.Return(ast.Constant(None)), function.body[-1])]
+
+
 def ends(way: list[ast.stmt]) -> bool:
     """Whether a way leaves the function, whatever is decided in it."""
     match way:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.numbers import existing
 
 _ALIKE = 1e-9  # of the greatest value: a variant among others and alone differ by rounding
 
@@ -51,6 +52,7 @@ def told(verdict: Any, among: int | None) -> NDArray[Any]:
 def array(held: Any) -> NDArray[Any]:
     """What a name holds as an array, of a whole number of any length too; of none for a list of unlike parts."""
     try:
+        held = existing(held)
         return np.asarray(float(held) if type(held) is int else held)
     except (ValueError, OverflowError):
         return np.asarray(None)

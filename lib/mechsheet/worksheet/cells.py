@@ -20,6 +20,7 @@ from mechsheet.worksheet.check import STATED, checks_of, refuse_open, stating, u
 from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
+from mechsheet.worksheet.numbers import existing
 from mechsheet.worksheet.refused_cells import refuse_misread, refuse_twice, refuse_unread
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
 
@@ -221,11 +222,12 @@ def value(want: str, names: Mapping[str, Any]) -> Any:
             return found[want]
         if not root.isidentifier() or (isinstance(names, dict) and root not in names):
             raise _no_check(want, found)
+    held = existing(names[root])
     if not part:
-        return names[root]
-    if np.asarray(names[root]).dtype.kind not in "iufc":
+        return held
+    if np.asarray(held).dtype.kind not in "iufc":
         raise SheetError(f"{want}: {root} is no number")
-    return np.abs(names[root]) if part == "abs" else getattr(np.asarray(names[root]), part)
+    return np.abs(held) if part == "abs" else getattr(np.asarray(held), part)
 
 
 def is_result(name: str, names: Mapping[str, Any]) -> bool:

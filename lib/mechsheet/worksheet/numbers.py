@@ -37,6 +37,11 @@ AXIS = CELL._replace(minus="−")
 _SMALLEST = 1e-6  # in the unit of a column: what is smaller may be nothing but rounding
 
 
+def existing(value: Any) -> Any:
+    """A value; None is a number that does not exist, as NaN is."""
+    return np.nan if value is None else value
+
+
 def significant(x: float, digits: int) -> str:
     """A number rounded to so many digits, as a power of ten where it has more before its point.
 

@@ -259,6 +259,7 @@ def _columns(
     every: int = 1,
 ) -> tuple[Column, ...]:
     known, columns = lines.registry(frame.f_globals), []
+    values = tuple(map(numbers.existing, values))
     nodes = source.listed(nodes)
     rows = _as_long_as_each_other(nodes, values, every)
     called = dict[str, str]()  # columns by what they may be called in ``show``

@@ -16,6 +16,7 @@ from mechsheet import units
 from mechsheet.worksheet import source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.lines import Formula, Given, displayed, formulas, names_read, registry
+from mechsheet.worksheet.numbers import existing
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.verdict import asks_values_only
 
@@ -39,7 +40,9 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     except SheetError as error:
         refuse(error)
     rows = [displayed(row, display) if display and isinstance(row, Formula) else row for row in lines]
-    values = tuple(frame.f_globals[row.name] if isinstance(row, Formula) and not row.again else None for row in rows)
+    values = tuple(
+        existing(frame.f_globals[row.name]) if isinstance(row, Formula) and not row.again else None for row in rows
+    )
     for row, value in zip(rows, values, strict=True):
         if isinstance(row, Formula) and not row.again and (why := no_number(row, value)):
             refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
@@ -65,7 +68,7 @@ def _above(cell: source.Cell, here: int) -> tuple[tuple[Formula | Given, ...], t
 
 def no_number(row: Formula, value: Any) -> str:
     """Why the value of a line cannot have its unit: it is neither a number, nor an array of them, nor a function."""
-    if row.arguments or isinstance(value, int | float | complex):
+    if row.arguments or value is None or isinstance(value, int | float | complex):
         return ""
     if hasattr(value, "__array_ufunc__") and not isinstance(value, np.ndarray | np.generic):  # computes
         return ""
