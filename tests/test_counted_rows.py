@@ -88,6 +88,13 @@ def test_a_row_counts_as_the_input_of_one_number_does(tmp_path: Path) -> None:
     assert np.array([s.z for s in g.stages]).dtype == g.stages.z.dtype == float, "which is neither cut nor overflows"
 
 
+def test_a_column_of_what_is_counted_has_no_decimals(tmp_path: Path) -> None:
+    """As that of a whole number has none: it was listed as 20.000."""
+    sheet = own(tmp_path, 'y = 1.0  # [-] line\ntable_2 = table("2", "Two", g.stages.z, g.stages.m, g.z_0)')
+    columns = sheet.run(["table_2"], {"g": sheet.inputs()})["table_2"].columns
+    assert [(column.decimals, column.usual) for column in columns] == [(0, False), (1, True), (0, False)]
+
+
 def test_what_counts_rows_is_followed_or_told(blank: Page, tmp_path: Path) -> None:
     lines = "\n".join(f"y_{k} = {line}  # [-] line" for k, line in enumerate(LINES))
     sheet = own(tmp_path, lines)

@@ -128,6 +128,9 @@ def section_3():
     it computes all of them at once: that is a field, and it needs no loop. What takes something of the turn before, as
     a series or steps of time, is one: `for i in range(1, g.n + 1): s += g.x**i / i`, below a line with `s = 0.0`.
 
+    The first of a list that is enough is `next((d for d in D if d >= need), None)`. Where none is, its line has no
+    number, which is told, and `d is None` asks for it.
+
     **Try** 25 positions instead of 13 in `linspace`.
     """)
     return

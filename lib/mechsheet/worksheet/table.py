@@ -299,8 +299,9 @@ def _columns(
             columns.append(Column(line.name.rpartition(".")[2], "", line.meaning, 0, row))
             continue
         shown = np.asarray(row) / units.parse(unit).factor
-        usual = decimals is None and kind == "f"
-        places = 0 if kind in "iu" else usual_decimals(unit) if decimals is None else decimals
+        counts = kind in "iu" or bool(given and given.whole)
+        usual = decimals is None and kind == "f" and not counts
+        places = 0 if counts else usual_decimals(unit) if decimals is None else decimals
         places = numbers.enough(shown, places) if usual else places
         want = "" if given else ast.unparse(node)
         columns.append(Column(label, unit, line.meaning, places, shown, of=own, want=want, usual=usual))
