@@ -26,12 +26,21 @@ _OVER_ALL = ("max", "min", "any", "all")  # of what is computed for each
 
 
 def over_each(reader: Reader, node: ast.Call) -> Node | None:
-    """A sum, a product, the greatest or the least of what is computed for each element; None for any other call."""
+    """A sum, a product, the first, the greatest or the least of what is computed for each element.
+
+    None for any other call.
+    """
     match node:
         case ast.Call(ast.Name("sum"), [ast.GeneratorExp() | ast.ListComp() as terms], []):
             return _sum(reader, terms, "∑")
         case ast.Call(ast.Name("prod"), [ast.GeneratorExp() | ast.ListComp() as terms], []):
             return _sum(reader, terms, "∏")
+        case ast.Call(ast.Name("next"), [ast.GeneratorExp() as some], []):
+            return Prefix(Text("first "), _each(reader, some), RELATION)
+        case ast.Call(ast.Name("next"), [ast.GeneratorExp() as some, otherwise], []):
+            is_none = isinstance(otherwise, ast.Constant) and otherwise.value is None
+            other = Text(", else none") if is_none else Prefix(Text(", else "), reader.read(otherwise))
+            return Prefix(Text("first "), Prefix(_each(reader, some), other), RELATION)
         case ast.Call(ast.Name(name), [ast.GeneratorExp(elt, [_] as loops)], []) if name in _OVER_ALL:
             inner = reader.without(_bound(loops))
             over = Binary(
@@ -43,11 +52,18 @@ def over_each(reader: Reader, node: ast.Call) -> Node | None:
 
 def listed(reader: Reader, node: Each) -> Node:
     """A list of what is computed for each element."""
+    return Brackets((_each(reader, node, plainly=False),), "[]", high=True)
+
+
+def _each(reader: Reader, node: Each, plainly: bool = True) -> Node:
+    """What is computed for each element, or ``plainly`` the elements themselves where it is these."""
     inner = reader.without(_bound(node.generators))
     first, *more = (_of(inner, loop) for loop in node.generators)
     for loop in more:
         first = Prefix(first, Prefix(Text(" and "), loop), RELATION)
-    return Brackets((Prefix(inner.read(node.elt), Prefix(Text(" for each "), first)),), "[]", high=True)
+    if plainly and not more and ast.unparse(node.elt) == ast.unparse(node.generators[0].target):
+        return first
+    return Prefix(inner.read(node.elt), Prefix(Text(" for each "), first))
 
 
 def function(reader: Reader, node: ast.Lambda) -> Node | None:
