@@ -384,6 +384,18 @@ APPENDED = [  # to the same lists whatever a condition says
     ),
     "T = [g.a]\nif g.F > 3:\n    T.append(g.F)\nelse:\n    T.append(2.0)\ny = T[1] * T[0] + len(T)",
 ]
+BY_TYPE = "def f(v):\n    if {}:\n        return np.maximum(v, 0.4) * 2\n    return v + 0 * g.F\n"
+TYPED = [  # of which a function asks whether it is one number, or a text
+    BY_TYPE.format("isinstance(v, (int, float))") + "y = f(g.a - 0.3) + f(np.sin(g.a)) + f(g.k - 2) + f(x)",
+    BY_TYPE.format("not isinstance(v, np.ndarray)") + "y = f(g.a - 0.3) + f(x - g.a)",
+    BY_TYPE.format("np.isscalar(v)") + "y = f(g.a - 0.3) + f(np.sin(g.a)) + f(x)",
+    BY_TYPE.format("not np.iterable(v)") + "y = f(g.a - 0.3) + f(x)",
+    BY_TYPE.format("not hasattr(v, '__len__')") + "y = f(g.a - 0.3) + f(x)",
+    BY_TYPE.format("type(v) is float") + "y = f(g.a - 0.3) + f(g.k - 2) + f(x)",
+    BY_TYPE.format("type(v) in (float, int)") + "y = f(g.a - 0.3) + f(g.k - 2) + f(g.a > 1)",
+    "def f(v):\n    return v(g.F) if callable(v) else max(v, 0.4)\ny = f(g.a - 0.3) + f(lambda v: v**2)",
+    "def f(v):\n    return {'a': 2.0, 'b': g.F}[v] if isinstance(v, str) else v\ny = f('a' if g.F > 3 else 'b')",
+]
 GUARDED = [  # where other inputs change what there is
     "T = [('M6', 6), ('M10', 10)]\nname, d = next(r for r in T if r[1] > 2 * g.F)\ny = d * len(name)",
     "T = [('M6', 6), ('M10', 10)]\nrow = next(r for r in T if r[1] > 2 * g.F)\ny = row[1] * len(row[0])",
@@ -423,6 +435,7 @@ GUARDED = [  # where other inputs change what there is
         *AROUND,
         *SOLVED,
         *APPENDED,
+        *TYPED,
         *GUARDED,
     ],
 )
@@ -436,6 +449,21 @@ def test_an_everyday_form_is_followed(lines: str, tmp_path: Path) -> None:
         value = value_of(recording, "result", given)
         if not (lines in GUARDED and np.isnan(value).all()):
             np.testing.assert_allclose(value, own_value, rtol=1e-12, err_msg=str(given))
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "lines",
+    [
+        BY_TYPE.format("type(v) is float") + "y = f(np.sin(g.a - 0.3))",
+        BY_TYPE.format("isinstance(v, int)") + "y = f(np.argmin(abs(x - g.F)) * 1) + g.a",
+        "match g.a - 0.3:\n    case float(v):\n        y = max(v, 0.4)\n    case v:\n        y = v * 1",
+        "match 'a' if g.F > 3 else 'b':\n    case str():\n        y = g.F\n    case _:\n        y = 3",
+    ],
+)
+def test_what_rests_on_a_type_that_is_not_known_is_never_stale(lines: str, tmp_path: Path) -> None:
+    """Whether a number is Python's own or one of numpy's is not known of each, and a pattern asks by itself."""
+    assert_never_stale(lines, tmp_path)
 
 
 @pytest.mark.parametrize("lines", NEAREST)

@@ -19,6 +19,7 @@ from mechsheet.recording import (
     each_row,
     exactly,
     in_place,
+    inspected,
     kept,
     loops,
     named,
@@ -71,11 +72,11 @@ from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 CALLS |= raised.CALLS | per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS
-CALLS |= named.CALLS
+CALLS |= named.CALLS | inspected.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {
     *("float", "int", "complex", "len", "max", "min", "pow", "round"),
-    *("sorted", "zip", "enumerate", "range", "getattr"),
+    *("sorted", "zip", "enumerate", "range", "getattr", "type"),
 }
 _KINDS = (
     *(ast.Import, ast.ImportFrom, ast.JoinedStr, ast.Subscript, ast.IfExp, ast.BoolOp, ast.Compare, ast.Match, ast.Not),
@@ -199,7 +200,7 @@ class _Rewriting(ast.NodeTransformer):
         if (choice := as_choice(node)) is not None:
             return self.visit_If(choice)
         self.generic_visit(node)
-        node.subject = call("matched", node, node.subject)
+        node.subject = call(inspected.matching(node), node, node.subject)
         return node
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
@@ -232,9 +233,8 @@ class _Rewriting(ast.NodeTransformer):
                 old = call("element", node, ast.Name(name, ast.Load()), key)
                 return _put(node, name, key, ast.BinOp(old, node.op, node.value))
             case ast.Name(name):
-                bind, end = _bound_anew(
-                    node, name, "changed", ast.Constant(exactly.OPERATIONS[type(node.op)]), node.value
-                )
+                operation = ast.Constant(exactly.OPERATIONS[type(node.op)])
+                bind, end = _bound_anew(node, name, "changed", operation, node.value)
                 settled = ast.Assign([ast.Name("recorded nothing", ast.Store())], end.value)  # no sign of a change
                 return [bind, ast.copy_location(settled, node)]
         return node

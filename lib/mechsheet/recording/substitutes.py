@@ -37,6 +37,7 @@ from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import exactly, scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
+from mechsheet.recording.inspected import ASKING
 from mechsheet.recording.math_rules import MATH, STATISTICS
 from mechsheet.recording.own_modules import followed, is_own
 from mechsheet.recording.per_row import of_rows
@@ -309,6 +310,7 @@ def _opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
 # An import inside a cell is one of what takes quantities too.
 BUILTINS = {
     **vars(builtins),
+    **ASKING,
     "__import__": _imported,
     "sum": total,
     "any": some,
