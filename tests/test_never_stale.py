@@ -310,6 +310,15 @@ CONSTRUCTS = [
     "match g.k:\n    case 2:\n        E = 3.0\n    case _:\n        E = 5.0\ny = E * g.a",
     "y = np.zeros(5)\ny[:] = x\ny[x > 2] = g.a\ny = y * 1.0",
     "z = x\nz = z + 0\nz[0] = g.a\ny = z + x",
+    # an array that only another way changes, under a name that the line does not have
+    "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",
+    "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h.flat[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",
+    "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        np.add.at(h, 0, g.a)\n    return v\nz = f(2.0)\ny = h * 2",
+    "class H:\n    pass\nh = H()\nh.w = 2 * x\nw = h.w\nif g.F > 3:\n    h.w[0] = g.a\ny = w * 2",
+    "a, b = 2 * x, 3 * x\nc = a if g.F > 3 else b\nif g.a > 1:\n    c[0] = 5.0\ny = b * 2",
+    "a, b = 2 * x, 3 * x\nc = (b if g.F < 9 else a) if g.F > 3 else a\nif g.a > 1:\n    c[0] = 5.0\ny = a * 2",
+    "def f(v):\n    if g.F < 3:\n        v = 1 * v\n    v[0] += g.a\n    return v[0]\nh = 2 * x\nz = f(h)\ny = h * 1",
+    "a = 2 * x\nb = a\nif g.F > 3:\n    b = b * 2\nif g.a > 1:\n    b[0] = 5.0\ny = a * 2",
 ]
 
 

@@ -805,6 +805,6 @@ def test_the_reason_of_a_gap_names_nothing_that_users_do_not_know(lines: str, re
 
 def test_the_reason_of_a_gap_has_the_names_as_they_are_written(tmp_path: Path) -> None:
     """Those of one cell alone are called by their cell where they are run."""
-    given = "def _f(v):\n    return v\ny = _f(*([g.F] if isinstance(g.F, float) else []))  # [-] line"
+    given = "def _f(v):\n    return v\ny = _f(*([g.F] if g.F.__class__ is float else []))  # [-] line"
     (gap,) = recorded(own(tmp_path, given))[1].gaps
     assert "(_f() missing 1 required positional argument" in gap.reason

@@ -19,7 +19,7 @@ class Number(Quantity):
 
     def __init__(self, some: Quantity, value: Quantity) -> None:
         super().__init__(value.graph, value.re, value.im)
-        self.some = some
+        self.some, self.base = some, value
 
     @property
     def nodes(self) -> list[Node]:
@@ -90,7 +90,9 @@ def some_of(value: Any) -> Any:
 def itself(value: Any) -> Any:
     """The value, where there is one."""
     if isinstance(value, Number):
-        return Quantity(value.graph, value.re, value.im)
+        number = Quantity(value.graph, value.re, value.im)
+        number.base = value
+        return number
     return value._itself if isinstance(value, Row) else value
 
 

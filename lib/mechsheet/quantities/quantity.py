@@ -35,7 +35,7 @@ METHODS = frozenset({
 class Quantity(NDArrayOperatorsMixin):
     """A quantity of a worksheet, real or complex, that takes part in arithmetic and in numpy's functions."""
 
-    __slots__ = ("__weakref__", "base", "graph", "im", "re")
+    __slots__ = ("__weakref__", "base", "graph", "im", "re", "ways")  # the last of one of several arrays alone
 
     def __init__(self, graph: Graph, re: Node, im: Node | None = None) -> None:
         self.graph, self.re, self.im = graph, re, im

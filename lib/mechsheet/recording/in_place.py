@@ -17,6 +17,7 @@ from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
 from mechsheet.recording import exactly
 from mechsheet.recording.choices import element
+from mechsheet.recording.memory import either_of
 
 OTHER_NAME = "an array is changed that has another name too"
 _NOT_SET = object()  # an element that there is not
@@ -33,7 +34,7 @@ def put(array: Any, key: Any, value: Any) -> Any:
         array[key] = value
         return array
     graph = next(quantities([array, key, value])).graph
-    graph.gone.append(weakref.ref(owner(array)))
+    graph.gone += former([array])
     return _put(lift(graph, array), key, value)
 
 
@@ -180,7 +181,7 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
         return exactly.operated(operation, old, value, f"i{operation.rstrip('_')}")
     graph = next(quantities([old, value])).graph
-    graph.gone.append(weakref.ref(owner(old)))
+    graph.gone += former([old])
     new = lift(graph, getattr(operator, operation)(old, value))
     if new.extent != lift(graph, old).extent:
         raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
@@ -193,7 +194,7 @@ def arranged(old: Any, method: str, *args: Any) -> Any:
         getattr(old, method)(*args)
         return old
     graph = next(quantities([old, *args])).graph
-    graph.gone.append(weakref.ref(owner(old)))
+    graph.gone += former([old])
     array = lift(graph, old)
     return np.sort(array, *args) if method == "sort" else np.full_like(array, *args)
 
@@ -206,8 +207,9 @@ def outside(value: Any) -> Any:
 
 
 def former(values: list[Any]) -> list[Any]:
-    """Arrays before the turns that change them, for who looks behind those whether they are known still."""
-    return [weakref.ref(owner(array)) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
+    """Arrays before what changes them, for who looks behind that whether they are known still."""
+    arrays = [owner(array) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
+    return [weakref.ref(each) for array in arrays for each in (array, *either_of(array))]
 
 
 def left(arrays: list[Any]) -> None:

@@ -29,7 +29,8 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity, owner
 from mechsheet.recording.sifted import Sifted
 
-_SETS = {"STORE_SUBSCR", "STORE_ATTR", "STORE_SLICE", "DELETE_SUBSCR", "DELETE_ATTR"}
+_ELEMENTS = {"STORE_SUBSCR", "STORE_SLICE"}
+_SETS = {*_ELEMENTS, "STORE_ATTR", "DELETE_SUBSCR", "DELETE_ATTR"}
 _MAY_CHANGE = {*_SETS, "POP_TOP", "STORE_DEREF"}
 _METHODS = {  # which change what they are called of, in the middle of an expression too
     "append", "appendleft", "extend", "insert", "pop", "popleft", "popitem", "setdefault", "update", "remove",
@@ -71,7 +72,7 @@ class Memory:
                 self.nodes.extend(value.nodes)
                 self.held[id(value)] = (), []  # which nobody holds by this
                 if value.ndim:
-                    self.arrays.add(id(value))
+                    self.arrays.update(map(id, (value, *either_of(value))))
                 continue
             if isinstance(value, np.ndarray):
                 self.arrays.add(id(value))
@@ -121,6 +122,12 @@ class Memory:
         return Memory.named(names, Memory(others, names).arrays)
 
 
+def either_of(array: Any) -> list[Any]:
+    """The arrays of which a condition tells which one an array is, as far as somebody still knows them."""
+    ways = (way() for way in getattr(owner(array), "ways", ()))
+    return [way for way in ways if way is not None]
+
+
 def _reached(
     values: Iterable[Any],
     own: Mapping[str, Any],
@@ -159,9 +166,16 @@ def _to_look_at(values: Iterable[Any], hidden: bool) -> list[tuple[Any, bool]]:
     return [(value, hidden) for value in values if type(value) not in _PLAIN]
 
 
-def sets_of_others(codes: Iterable[CodeType]) -> bool:
-    """Whether functions may set elements of arrays that are not their own."""
-    return any(not _SETTING.isdisjoint(names_of(code)) for code in codes)
+def sets_of_others(line: CodeType, *functions: CodeType) -> bool:
+    """Whether functions may set elements of arrays that are not their own, or a line does under no name of its own."""
+    return any(map(_sets, (line, *functions))) or any(not _SETTING.isdisjoint(names_of(code)) for code in functions)
+
+
+@lru_cache(maxsize=4096)
+def _sets(code: CodeType) -> bool:
+    """Whether code sets elements of what has no name there, or one that it does not bind: of others a call does."""
+    inside = (constant for constant in code.co_consts if isinstance(constant, CodeType))
+    return not _ELEMENTS.isdisjoint(operations(code)) or any(map(_sets, inside))
 
 
 def _is_fixed(value: Any) -> bool:

@@ -199,7 +199,7 @@ class Run(OfPositions):
         may_change = any(map(changes, codes))
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         others = Memory.sharing(self.names, arrays).difference(touched)
-        handed = map(self.names.get, under) if sets_of_others(codes[1:]) else ()
+        handed = map(self.names.get, under) if sets_of_others(*codes) else ()
         reached = Memory.sharing(self.names, handed).difference(touched)  # which a function may change
         differs: list[str] = []
         try:
