@@ -234,6 +234,8 @@ CONSTRUCTS = [
     "import contextlib\nk = 7.0\nwith contextlib.suppress(ArithmeticError):\n    k = 1 / (g.k - 3)\ny = k * g.a",
     "from contextlib import suppress\nk = 7.0\nwith suppress(Exception):\n    k = np.float64(g.F) * 1.0\ny = k * g.a",
     "from contextlib import suppress\nk = 1.0\nwith suppress(TypeError):\n    k = len(g.F)\ny = k * g.a",
+    "from contextlib import suppress\nk = 7.0\nwith suppress(IndexError):\n    k = x[6]\ny = k * g.F",
+    "from contextlib import suppress\nk = 7.0\nwith suppress(ValueError):\n    k = sqrt(0.5 - g.a)\ny = k * g.F",
     "def f():\n    h = np.zeros(2)\n    q = h\n    q[0] = g.F\n    return h\ny = f() * 2",
     "def f():\n    h = np.zeros(2)\n    q = h[:1]\n    q += g.F\n    return h\ny = f() * 2",
     "def f(v):\n    v[0] = 0.0\n    return v.sum()\ns = f(x.copy())\ny = s + x",

@@ -393,7 +393,10 @@ def tried(node: ast.Try | ast.TryStar | ast.With) -> None:
         named = {n.attr if isinstance(n, ast.Attribute) else getattr(n, "id", "") for n in _called(node)}
         if "suppress" not in named:
             return
-    for handler in () if isinstance(node, ast.With) else node.handlers:
+        handlers = [ast.ExceptHandler(ast.Name("Exception", ast.Load()), None, [])]  # else nobody sees what it handles
+        inner = ast.copy_location(ast.Try(node.body, handlers, [], []), node)
+        node.body, node = [inner], inner
+    for handler in node.handlers:
         handler.name = handler.name or "_error"
         handler.body.insert(0, ast.Expr(call("handled", handler, ast.Name(handler.name, ast.Load()))))
     for part in (part for line in node.body for part in ast.walk(line)):
