@@ -134,6 +134,17 @@ def test_what_python_counts_is_empty_for_other_lengths_and_says_why(blank: Page,
             assert why.startswith("line ") == (counted in each), (expression, each)
 
 
+def test_rows_that_a_text_alone_counts_are_the_worksheets_own_where_none_are_given(blank: Page, tmp_path: Path) -> None:
+    path, expression = tmp_path / "own.py", ["[2 * p.x for p in g.points]"]
+    named = SHEET.replace("        x: float", "        name: str  # label\n        x: float").replace(
+        "Point(", 'Point("P", '
+    )
+    path.write_text(named.replace("LINES", f"y_0 = {expression[0]}  # [-] line"), encoding="utf-8")
+    _, recording = recorded_file(path)
+    (found,) = evaluated(blank, javascript.module(recording, parts_of(recording, expression)), [{}])
+    np.testing.assert_array_equal(found["values"]["0 0"], [2, 4, 8, 10])
+
+
 def leaves(sheet: cells.Worksheet, given: dict[str, Any]) -> dict[str, Any]:
     """Numbers in SI as the page reads them."""
     g = inputs.build(sheet.inputs, given)
@@ -157,6 +168,10 @@ def recorded(tmp_path: Path, expressions: Collection[str]) -> tuple[cells.Worksh
             expression = f"y_{k}_found.value"
         lines.append(f"y_{k} = {expression}  # [-] line")
     path.write_text(SHEET.replace("LINES", "\n    ".join(lines)), encoding="utf-8")
+    return recorded_file(path)
+
+
+def recorded_file(path: Path) -> tuple[cells.Worksheet, Recording]:
     sheet = cells.load(path)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
     return sheet, record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)

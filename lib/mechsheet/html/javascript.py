@@ -59,7 +59,7 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     scope = Scope(program, {})
     scope.write(dict.fromkeys([*results, *conditions, *looked]))
 
-    own = ",".join(f"{names[n]}:{_own(n)}" for n in bottom_up([*results, *looked], ()) if n.op == "input")
+    own = ",".join(f"{names[n]}:{_own(n)}" for n in scope.names if n.op == "input")
     values = ",".join(f"{_key(key)}:{_result(scope, node)}" for key, node in wanted.items())
     verdicts = ",".join(f"{json.dumps(key)}:{scope.solved[node.args[0]]}" for key, node in found.items())
     lines = [
