@@ -49,6 +49,12 @@ KEPT = [
         "            if d < 18:\n                ok.append(d)\n    return ok[0] if ok else 99.0\n"
         "y = fitting(5 * g.F) * g.a"
     ),
+    (  # what is bound once a condition holds, names that are bound anew behind the loop
+        THREADS
+        + "fits = []\nfor d, P in T:\n    d = d * g.a\n    A, u = d**2 - P, g.F / P\n    if A > 60:\n        continue\n"
+        "    m = A * u\n    d, e = m + d, 2 * u\n    if d < 20:\n        continue\n    fits.append((d, m * e))\n"
+        "d, P = min(fits, key=lambda f: f[1]) if fits else (1.0, 2.0)\ny = d * P + len(fits)"
+    ),
     SIZES + "fits = []\nfor v in (d * 2 for d in D):\n    if v >= 6 * g.F:\n        fits.append(v)\ny = fits[0] * g.a",
     (
         "def law(made=[]):\n    made.append(1)\n    n = len(made)\n    return lambda v: v * g.a + n\n"
@@ -111,6 +117,15 @@ READ_OTHERWISE = [  # of which Python sees each element
     + "A = 5.0\nok = []\nfor d in D:\n    if d >= 3 * g.F:\n        A = d / 2\n        ok.append(A)\ny = ok[0] * g.a",
     SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F and len(ok) < 2:\n        ok.append(d)\ny = len(ok) * g.a",
     SIZES + "ok = []\nfor d in D:\n    if d < 3 * g.F:\n        ok.append(d)\ny = d + ok[-1] * g.a",
+    SIZES
+    + "d = 1.0\nf = lambda: d\nok = []\nfor d in D:\n    if d < 3 * g.F:\n        ok.append(d)\ny = f() * ok[0]\nd = 2",
+    SIZES + "A = 5.0\nok = []\nfor d in D:\n    if d < 3 * g.F:\n        continue\n    A = d\n    ok.append(A)\ny = A",
+    SIZES
+    + "A = 5.0\nok = []\nfor d in D:\n    if d < 3 * g.F:\n        A = d\n        ok.append(A)\nA += 1\ny = ok[0] * A",
+    (
+        SIZES + "L = []\ndef f(d):\n    L.append(d)\n    return d / 2\nok = []\nfor d in D:\n    if d < 2 * g.F:\n"
+        "        continue\n    A = f(d)\n    if A > 3 * g.F:\n        continue\n    ok.append(A)\ny = sum(ok) + len(L)"
+    ),
     SIZES + "ok = held = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(d)\ny = len(held) * g.a",
     SIZES + "ok = []\nfor d in D:\n    A = d * 2\n    if d >= 3 * g.F:\n        ok.append(A)\ny = ok[0] * g.a + A",
     SIZES + "ok = []\nfor d in D:\n    if d >= 3 * g.F:\n        ok.append(-d)\nok.sort()\ny = ok[0] * g.a",

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from copy import deepcopy
 from functools import lru_cache
 
-from mechsheet.recording.forms import SCOPED, appended
+from mechsheet.recording.forms import SCOPED, appended, taking
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 
@@ -63,9 +63,8 @@ def kept_in_loops(lines: Sequence[ast.stmt], read: frozenset[str] = frozenset())
     names that the loop leaves.
     """
     found, empty = list[ast.stmt](), list[str]()  # lists that nothing was put into, by the statements before
-    for line in lines:
-        others = read.union(*(_loaded(each) for each in lines if each is not line)) if empty else read
-        kept = _kept(empty, line, others) if empty and isinstance(line, ast.For) else []
+    for n, line in enumerate(lines):
+        kept = _kept(empty, line, _read_of(lines, n, read)) if empty and isinstance(line, ast.For) else []
         if kept:
             found = [each for each in found if _empty(each) not in [name for name, _ in kept]]
         new = (ast.Assign([ast.Name(name, ast.Store())], some) for name, some in kept)
@@ -73,6 +72,16 @@ def kept_in_loops(lines: Sequence[ast.stmt], read: frozenset[str] = frozenset())
         name = _empty(line)
         empty = [*empty, name] if name else []
     return found
+
+
+def _read_of(lines: Sequence[ast.stmt], n: int, read: frozenset[str]) -> set[str]:
+    """Names of which somebody reads what the statement number ``n`` leaves, and not what a later one binds."""
+    needed = {*read}
+    for line in reversed(lines[n + 1 :]):
+        if isinstance(line, ast.Assign | ast.AnnAssign) and getattr(line, "value", None):
+            needed -= {*source.bound(line)}
+        needed |= _loaded(line)
+    return needed.union(*map(_loaded, lines[:n]))  # a function may be called later
 
 
 def _empty(line: ast.stmt) -> str:
@@ -89,29 +98,49 @@ def of_cell(cell: Cell, sheet: Worksheet) -> list[ast.stmt]:
     return kept_in_loops(cell.lines, frozenset[str]().union(*(each.needs for each in sheet.cells)))
 
 
-def _kept(lists: Sequence[str], loop: ast.For, read: frozenset[str]) -> list[tuple[str, ast.ListComp]]:
+def _kept(lists: Sequence[str], loop: ast.For, read: set[str]) -> list[tuple[str, ast.ListComp]]:
     """What a loop puts into some lists of what meets a condition; nothing where it does anything else."""
     each, ifs, body = [ast.comprehension(loop.target, loop.iter, [], 0)], list[ast.expr](), loop.body
+    later = list[tuple[ast.expr, ast.expr]]()  # what names are bound to once a condition holds
     while True:
         match body:
-            case [ast.Assign([ast.Name() as own], made), *rest] if not ifs:
-                each.append(ast.comprehension(own, ast.List([made], ast.Load()), [], 0))
+            case [ast.Assign([ast.Name() | ast.Tuple() as own], made), *rest] if _names_alone(own):
+                if ifs:
+                    later.append((own, made))
+                else:
+                    each.append(ast.comprehension(own, ast.List([made], ast.Load()), [], 0))
             case [ast.If(test, [ast.Continue()], []), *rest]:
-                ifs.append(ast.UnaryOp(ast.Not(), test))
+                ifs.append(_where_bound(later, ast.UnaryOp(ast.Not(), test)))
             case [ast.If(test, rest, [])]:
-                ifs.append(test)
+                ifs.append(_where_bound(later, test))
             case _:
                 break
         body = rest
     each[-1].ifs = ifs
-    kept = [(name, ast.ListComp(value, deepcopy(each))) for name, value in filter(None, map(appended, body))]
+    kept = [
+        (name, ast.ListComp(_where_bound(later, value), deepcopy(each)))
+        for name, value in filter(None, map(appended, body))
+    ]
     names = [name for name, _ in kept]
-    left = set[str]().union(*(_named(own.target) for own in each))
+    left = set[str]().union(*(_named(own.target) for own in each), *(_named(own) for own, _ in later))
     if not (ifs and kept) or loop.orelse or left & read or len({*names} & {*lists}) < len(body):
         return []
     parts = [part for _, some in kept for part in ast.walk(some)]
     read_or_bound = (isinstance(part, SCOPED) or (isinstance(part, ast.Name) and part.id in names) for part in parts)
     return [] if any(read_or_bound) else kept
+
+
+def _names_alone(target: ast.expr) -> bool:
+    return all(isinstance(part, ast.Name) for part in getattr(target, "elts", [target]))
+
+
+def _where_bound(bound: Sequence[tuple[ast.expr, ast.expr]], value: ast.expr) -> ast.expr:
+    """An expression in which names are bound, one after the other."""
+    for own, made in reversed(bound):
+        names = [part.id for part in getattr(own, "elts", [own])]
+        given = ast.Starred(deepcopy(made), ast.Load()) if isinstance(own, ast.Tuple) else deepcopy(made)
+        value = ast.Call(taking(names, value), [given], [])
+    return value
 
 
 def _loaded(of: ast.stmt) -> set[str]:
