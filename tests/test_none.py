@@ -82,6 +82,8 @@ FOLLOWED = [
     f"{OF_F}y = -1.0 if not r else r",
     f"{OF_F}y = 5.0 if r is not None and r > 0.1 else 2.0",
     f"{OF_F}y = 1.0 if all([r, g.a > 0.5]) else 2.0",
+    f"{OF_F}y = 1.0 if r in (None, 1.0) else 2.0 + r",
+    f"{OF_F}y = 1.0 if r not in [None] else g.a",
     "y = (1.0 if g.a > 0.5 else None) or (2.0 if g.F > 2 else None) or 3.0\ny = y * g.F",
     "y = 1.0 if (r := next((d for d in (3.0, 3.5) if d > g.F), 0.5)) is None else r * g.a",
 ]

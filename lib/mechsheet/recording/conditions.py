@@ -60,6 +60,7 @@ def member(value: Any, several: Any) -> Any:
         return value in several
     alike = NUMBERS | np.bool_ if isinstance(value, Quantity) else str | Written | NUMBERS | Chosen
     same = [value == each for each in several if isinstance(each, alike)]
+    same += [none(value) for each in several if each is None]
     if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
         return value in several
     return reduce(operator.or_, same, False)
