@@ -312,6 +312,7 @@ CONSTRUCTS = [
     "match g.k:\n    case 2:\n        E = 3.0\n    case _:\n        E = 5.0\ny = E * g.a",
     "y = np.zeros(5)\ny[:] = x\ny[x > 2] = g.a\ny = y * 1.0",
     "z = x\nz = z + 0\nz[0] = g.a\ny = z + x",
+    "h = np.array([3.0, 3 * abs(g.F - 2), 1.0])\nnp.put(h, 0, 2.0)\nh[np.argmax(h)] = 2.0\ny = h * 2",
     # an array that only another way changes, under a name that the line does not have
     "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",
     "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h.flat[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",
