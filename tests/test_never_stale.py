@@ -313,6 +313,11 @@ CONSTRUCTS = [
     "y = np.zeros(5)\ny[:] = x\ny[x > 2] = g.a\ny = y * 1.0",
     "z = x\nz = z + 0\nz[0] = g.a\ny = z + x",
     "h = np.array([3.0, 3 * abs(g.F - 2), 1.0])\nnp.put(h, 0, 2.0)\nh[np.argmax(h)] = 2.0\ny = h * 2",
+    # of a table that is the same for all inputs, they say which row or column it is, or how many rows
+    "from scipy.special import gamma\nT = np.array([[2.0, 3.0, 5.0], [0.5, 1.5, 4.0]])\ny = gamma(T[:, g.k - 2])",
+    "from scipy.special import gamma\nT = np.array([[2.0, 3.0], [0.5, 1.5]])\nrow = T[g.k - 2]\ny = gamma(row)",
+    "from scipy.special import gamma\nv = np.arange(12.0)[: g.n]\ny = gamma(v).sum()",
+    "v = np.array([[3.0, 2.0], [0.5, 1.5]])[g.k - 2]\nnp.put(v, 0, 7.0)\ny = v * 2",
     # an array that only another way changes, under a name that the line does not have
     "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",
     "h = 2 * x\ndef f(v):\n    if g.F > 3:\n        h.flat[0] = g.a\n    return v\nz = f(2.0)\ny = h * 2",

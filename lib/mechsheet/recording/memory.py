@@ -144,7 +144,9 @@ def _reached(
     while waiting:
         value, hidden = waiting.pop()
         if isinstance(value, Quantity | np.ndarray):
-            value = owner(value)
+            shows, value = value, owner(value)
+            if isinstance(shows, Quantity) and shows is not value:  # which rests on the places of its elements too
+                yield shows, hidden, None
         if isinstance(value, Quantity):
             yield value, hidden, None
             continue
