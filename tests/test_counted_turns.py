@@ -108,6 +108,7 @@ GATHERED = [  # in lists and arrays, which a workbook has as long as now
     "v = np.zeros(g.m)\nw = v\nfor i in range(g.m):\n    v[i] = g.x * i\nNAME = w.sum() * 1.0",
     "L = [1.0]\nM = L\nfor i in range(g.m):\n    L.append(L[-1] * g.x)\nNAME = sum(M) * 1.0",
     "L = [1.0]\nfor i in range(g.m):\n    L.append(L[-1] * g.x)\n    if L[-1] < 0.4:\n        break\nNAME = sum(L)",
+    "v = np.linspace(0.0, 2.0, g.n + 2)\nfor i in range(g.n, 0, -1):\n    v[:2] = g.x\nNAME = np.argmax(v) * 1.0",
 ]
 NESTED = [  # a workbook takes as many turns of each as now
     "s = 0.0\nfor i in range(g.n):\n    for j in range(g.m):\n        s += g.x**(i + j)\nNAME = s",

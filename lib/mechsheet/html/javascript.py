@@ -125,7 +125,7 @@ def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found:
 def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] | None:
     """The condition under which a quantity is known, and why not otherwise; None where it always is."""
     program = scope.program
-    if node.op == "iterated" and node.args[0].most is None:
+    if node.op == "iterated" and node.args[0].most is None and node not in program.conditions:
         return f"{scope.solved[node.args[0]]}.ends", f"line {node.line}: its loop has not ended after 100000 turns"
     if node.op == "exported":
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
@@ -233,16 +233,21 @@ def _length(scope: Scope, node: Node) -> str:
 
 
 def _iterated(scope: Scope, node: Node) -> str:
-    loop, number, _ = node.args
+    (loop, number, _), conditions = node.args, scope.program.conditions
     if loop not in scope.solved:
-        state = {n: scope.program.name() for n in loop.nodes}
+        state, before = {n: scope.program.name() for n in loop.nodes}, dict(conditions)
         turn = scope.inner(state)
         turn.write([loop.done, *loop.following])
-        after = f"[{','.join(map(turn.text, loop.following))}],{turn.text(loop.done)}"
+        inside = dict.fromkeys(conditions.pop(key) for key in [*conditions] if key not in before)
+        after = f"[{','.join(map(turn.text, loop.following))}],{turn.text(loop.done)},{'&&'.join(inside) or 'true'}"
         body = f"([{','.join(state.values())}])=>{{{''.join(declared(turn.lines))}return[{after}]}}"
         most = "null" if loop.most is None else str(loop.most)
         begin = f"[{','.join(map(scope.text, loop.initial))}]"
         scope.solved[loop] = scope.bind(f"repeated({begin},{most},{body})")
+        if inside:
+            conditions[loop] = f"{scope.solved[loop]}.known"
+    if loop in conditions:
+        conditions[node] = conditions[loop]
     text = f"{scope.solved[loop]}[{number}]"
     return f"shaped({text},{scope.shape(loop.initial[number])})" if len(node.shape) > 1 else text
 

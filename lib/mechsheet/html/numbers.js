@@ -200,15 +200,17 @@ const each = (n, f) => Array.from({length: n}, (_, p) => f(p));
 
 const TURNS = 1e5;
 
-// What a loop makes of its state; no numbers where it does not end.
+// What a loop makes of its state; no numbers where it does not end. Whether it is known in each turn what that makes.
 function repeated(state, most, turn) {
-  let ends = false;
+  let ends = false, known = true, now;
   for (let k = 0; k < (most ?? TURNS) && !ends; k++) {
-    [state, ends] = turn(state);
+    [state, ends, now] = turn(state);
     ends = flat(ends).every(v => v != 0);
+    known &&= now;
   }
-  const known = ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
-  return Object.assign(known, {ends});
+  known &&= ends || most !== null;
+  const made = ends || most !== null ? state : state.map(v => (v.length === undefined ? NaN : nothing(v.length)));
+  return Object.assign(made, {ends, known});
 }
 
 function gap(out, why, keys) {
