@@ -3,7 +3,6 @@
 import ast
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import partial
 from itertools import chain
 from types import CodeType
@@ -29,6 +28,7 @@ from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
 from mechsheet.recording.named import in_words
 from mechsheet.recording.positions import OfPositions
+from mechsheet.recording.sifted import in_one
 from mechsheet.recording.stage import Stage, held, is_array, is_number
 from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -109,9 +109,8 @@ class Run(OfPositions):
         self.listed.pop(name, None)
         if isinstance(value, Quantity) and value.dtype == bool:  # which is none only where it is shown
             return self.while_same(value, self.looked.get(name, ()))
-        if name in self.lines and isinstance(value, list | tuple) and has_quantity(value):
-            with suppress(NotRecorded, ValueError):  # of rows that are not as long as each other, or texts among them
-                self.listed[name] = value = self.while_same(lift(self.graph, value), self.looked.get(name, ()))
+        if name in self.lines and isinstance(value, list | tuple) and (one := in_one(self.graph, value)):
+            self.listed[name] = value = self.while_same(one[0], (*self.looked.get(name, ()), *one[1]))
         return value
 
     def parts(self, line: ast.stmt, before: set[str]) -> tuple[ast.stmt, ...]:
@@ -154,10 +153,7 @@ class Run(OfPositions):
             guards = *self.looked.get(name, ()), *stage.guards.values()
             drawn = [*showing.drawings(value)]
             for k, x in value.positions if isinstance(value, Mark) else ():
-                at = lift(self.graph, x)
-                for guard in guards:
-                    at = only_where(self.graph, Quantity(self.graph, guard.holds), at)
-                self.recording.positions[k] = at.re
+                self.recording.positions[k] = self.while_same(lift(self.graph, x), guards).re
             sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
             found += [None] * len(own) if own and len(own) != len(drawn) else sketches
         for number, title in showing.captions(cell).items():
@@ -405,6 +401,7 @@ class Run(OfPositions):
                 else:
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = only_where(self.graph, Quantity(self.graph, guard.holds), x)
+                    self.recording.seen.update(x.parts)
         return x
 
     def while_are(self, leaves: Iterable[Node]) -> tuple[Guard, ...]:

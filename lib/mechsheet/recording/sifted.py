@@ -5,8 +5,8 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from mechsheet.quantities.graph import NotRecorded
-from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.graph import Graph, Guard, NotRecorded
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift
 from mechsheet.quantities.written import Written, either, joined
 
 Pairs = list[tuple[Any, Any]]  # of every element whether it is kept, and its value
@@ -63,6 +63,20 @@ class Sifted(list[Any]):
     def _look(self) -> None:
         for holds, _ in self.pairs:
             bool(holds)
+
+
+def in_one(graph: Graph, values: list[Any] | tuple[Any, ...]) -> tuple[Quantity, list[Guard]] | None:
+    """A list or a tuple as the one quantity that it is shown as, and what Python sees of it: which ones are kept.
+
+    None where no number of it follows, of rows that are not as long as each other, and of texts.
+    """
+    looked, graph.looked = graph.looked, {}
+    try:
+        return (lift(graph, values), [*graph.looked.values()]) if has_quantity(values) or graph.looked else None
+    except (NotRecorded, ValueError):
+        return None
+    finally:
+        graph.looked = looked
 
 
 def joined_kept(sign: Any, parts: Any) -> Any:
