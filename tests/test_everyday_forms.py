@@ -103,6 +103,48 @@ KEPT = [
     ),
     SIZES + "k = 3\nfit = [d * k for d in D if d >= k * g.F]\nk = 5\ny = sum(fit) * g.a",
 ]
+ITEM = (
+    "from dataclasses import dataclass\n@dataclass\nclass Item:\n    d: float\n    m: float\n"
+    "def item(d):\n    return Item(d, (d - 4 * g.F) ** 2 + g.a * d)\n"
+)
+BEST = [  # looked for one by one, and what is made of those that are kept
+    (
+        SIZES + ITEM + "best = None\nfor d in D:\n    each = item(d)\n    if d < 2.5 * g.F:\n        continue\n"
+        "    if best is None or each.m < best.m:\n        best = each\ny = best.d * g.a if best is not None else 99.0"
+    ),
+    (
+        SIZES + ITEM + "fit = [item(d) for d in D if d >= 2.5 * g.F]\nbest = None\nfor each in fit:\n"
+        "    if best is None or each.m < best.m:\n        best = each\n"
+        "y = best.m + sum(1 for each in fit if each is best) * g.a + len([i for i in fit if i == best and i.d > g.F])"
+    ),
+    (
+        SIZES + "def pick(need):\n    best = None\n    for d in D:\n        if d < need:\n            continue\n"
+        "        cost = (d - 4 * g.F) ** 2\n        if best is not None and cost >= best[1]:\n            continue\n"
+        "        best = (d, cost)\n    return best\n"
+        "found = pick(2.5 * g.F)\ny = 0.5 if found is None else found[0] * g.a"
+    ),
+    SIZES + "fit = [d for d in D if d >= 2.5 * g.F]\ny = 0.0\nfor d in fit:\n    if d > 9:\n        y += d * g.a",
+    (
+        SIZES + "low = 1e9\nfor d in D:\n    if d < 2.5 * g.F:\n        continue\n    if (d - 4 * g.F) ** 2 < low:\n"
+        "        low, taken = (d - 4 * g.F) ** 2, d\ny = taken * g.a + low"
+    ),
+    (
+        SIZES + "fit = [d for d in D if d >= 2.5 * g.F]\nmore = [d * g.a for d in fit]\n"
+        "y = sum(m for m in more if m > g.F) + max(d - g.F for d in fit) + len([m for m in more if m < 3 * g.F])"
+    ),
+    (
+        SIZES + "fit = sorted([(d, (d - 4 * g.F) ** 2) for d in D if d >= 2.5 * g.F], key=lambda f: f[1])\n"
+        "y = fit[0][0] * g.a + fit[-1][1] + len(fit)"
+    ),
+    (
+        "T = sorted([(abs(b / a - g.F), a, b) for a in (3, 5, 7) for b in range(4, 20)], key=lambda t: t[0])\n"
+        "y = T[0][1] * g.a + T[-1][2] + len(T)"
+    ),
+    (
+        ITEM + "every = [item(d) for d in (6.0, 8.0, 10.0, 12.0, 16.0)]\nbest = min(every, key=lambda i: i.m)\n"
+        "y = sum(k for k, each in enumerate(every) if each is best) + sum(i.d for i in every if i is not best)"
+    ),
+]
 RANKED = [  # rows in the order of a number of theirs
     THREADS + "T = sorted(T, key=lambda r: abs(r[0] - 3 * g.F))\ny = T[0][1] * g.a + T[-1][0]",
     NAMED + "T = sorted(T, key=lambda r: abs(r[1] - 3 * g.F), reverse=True)\ny = np.array([r[2] for r in T[:2]]) * g.a",
@@ -138,6 +180,13 @@ READ_OTHERWISE = [  # of which Python sees each element
     SIZES + "fit = [d for d in D if d >= 3 * g.F]\ny = float(sum(sorted(fit, reverse=True)[:2]) + len(tuple(fit)))",
     SIZES + "L = []\nfit = [L.append(d) or d for d in D if d >= 1.5 * g.F]\ny = sum(L) * g.a",
     SIZES + "if g.F > 3:\n    fit = [d for d in D if d >= g.F]\nelse:\n    fit = [g.a]\ny = len(fit) + sum(fit)",
+    SIZES + "fit = sorted([d for d in D if d >= 3 * g.F], key=lambda d: abs(d - 9 * g.a))\ny = fit[1] + sum(fit[:2])",
+    SIZES
+    + "fit = sorted([d for d in D if d >= 3 * g.F], key=lambda d: -d)\ny = float('.'.join(str(d) for d in fit)[:2])",
+    THREADS
+    + "best = min(T, key=lambda t: abs(t[0] - 3 * g.F))\ny = sum(k for k, t in enumerate(T) if t is best) + g.a",
+    SIZES
+    + "best = None\nfor d in D:\n    if d >= 3 * g.F and (best is None or d < best):\n        best = d\ny = best * g.a",
     NAMED + "T = sorted(T, key=lambda r: r[1] * g.F)\ny = len(T[0][0]) * g.a",
     SIZES + "T = sorted(D, key=lambda d: np.sqrt(d - 3 * g.F + 4))\ny = T[0] * g.a",
     "T = sorted(['a', 'b'], key=lambda t: {'a': g.F, 'b': 3.0}[t])\ny = (T[0] == 'a') * g.a",
@@ -449,6 +498,7 @@ GUARDED = [  # where other inputs change what there is
         *PLACED,
         *AROUND,
         *SOLVED,
+        *BEST,
         *APPENDED,
         *TYPED,
         *GUARDED,
@@ -508,6 +558,20 @@ def test_a_function_that_is_chosen_is_followed(lines: str, tmp_path: Path) -> No
 def test_a_list_of_those_that_are_kept_is_never_stale(lines: str, tmp_path: Path) -> None:
     """Whatever reads it but for its count, its first, its last, its sum and its extremes."""
     assert_never_stale(lines, tmp_path)
+
+
+def test_a_line_of_those_that_are_kept_is_known_while_they_are_the_same(tmp_path: Path) -> None:
+    """It had the exported elements for all inputs, whatever read the list beside."""
+    lines = SIZES + "fit = [d for d in D if d >= 3 * g.F]  # [-] line\nn = len(fit)  # [-] line"
+    sheet = own(tmp_path, f"{lines}\ntwice = [g.a * d for d in fit]  # [-] line\ntable_2 = table('2', 'Two', n)")
+    _, recording = recorded(sheet)
+    for given, known in (({}, True), ({"F": 2.6}, True), ({"F": 3.4}, False), ({"F": 1.9}, False)):
+        expected = by_cells(sheet.path, ["n", "twice"], **given)
+        assert value_of(recording, "n", given) == expected["n"]
+        for name in ("fit", "twice"):
+            assert np.isfinite(value_of(recording, name, given)).all() == known, (name, given)
+        if known:
+            np.testing.assert_allclose(value_of(recording, "twice", given), expected["twice"])
 
 
 @pytest.mark.parametrize("lines", LOOKED)

@@ -48,6 +48,8 @@ class Fields(Sequence[Any]):
 class Thing:
     """One of two objects of a class."""
 
+    __hash__ = None  # type: ignore[assignment]  # as that of what is compared by its parts
+
     def __init__(self, merge: Merge, x: Any, y: Any) -> None:
         self._merge, self._things = merge, (x, y)
 
@@ -58,6 +60,23 @@ class Thing:
         if isinstance(method := getattr(_kind(x), name, None), FunctionType):
             return MethodType(method, self)
         return self._merge(getattr(x, name), getattr(y, name))
+
+    def __eq__(self, other: object) -> Any:
+        x, y = self._things
+        return self._merge(x == other, y == other)
+
+    def __ne__(self, other: object) -> Any:
+        x, y = self._things
+        return self._merge(x != other, y != other)
+
+
+def is_same(x: Any, y: Any) -> Any:
+    """``x is y``, where either may be one of two; None where a row of numbers is one that nobody can tell."""
+    for one, other in ((x, y), (y, x)):
+        if isinstance(one, Row | Fields | Thing):
+            ways = [is_same(each, other) for each in (one._things if isinstance(one, Thing) else one._rows)]
+            return None if any(way is None for way in ways) else one._merge(*ways)
+    return None if x is not y and isinstance(x, tuple | list) and isinstance(y, tuple | list) else x is y
 
 
 def changed(change: Callable[[Any], Any], one: "Row | Fields | Thing") -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.quantities.refused import on_ways, sure
+from mechsheet.quantities.refused import on_ways, sure, unless
 
 
 class Number(Quantity):
@@ -44,7 +44,17 @@ class Row:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        return getattr(there(self), name)
+        return self._part(getattr(self._itself, name))
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._part(self._itself[key])
+
+    def _part(self, part: Any) -> Any:
+        """A part of it: a number is none where it is None, of all else Python looks whether it is there."""
+        if isinstance(part, Quantity):
+            return part if sure(self._some) else unless(self._some, part)
+        there(self)
+        return part
 
     def __iter__(self) -> Iterator[Any]:
         return iter(there(self))
@@ -56,7 +66,7 @@ class Row:
         return hash(settled(self))
 
     def __eq__(self, other: object) -> Any:
-        same = self._itself == other if isinstance(other, str) else None
+        same = None if isinstance(self._itself, tuple | list | dict) else self._itself == other
         return self._some & same if isinstance(same, Quantity) else settled(self) == other
 
     def __ne__(self, other: object) -> Any:
@@ -72,7 +82,7 @@ def _looking(name: str) -> Callable[..., Any]:
 
 
 for _name in (
-    "__getitem__", "__len__", "__contains__", "__str__", "__format__", "__repr__",
+    "__len__", "__contains__", "__str__", "__format__", "__repr__",
     "__lt__", "__le__", "__gt__", "__ge__", "__add__", "__radd__", "__mul__", "__rmul__",
 ):  # fmt: skip
     setattr(Row, _name, _looking(_name))

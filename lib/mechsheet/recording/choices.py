@@ -3,7 +3,6 @@
 import operator
 import weakref
 from collections.abc import Callable
-from copy import copy
 from functools import partial, reduce
 from types import FunctionType
 from typing import Any
@@ -208,7 +207,8 @@ def _missing(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _missing(part) for key, part in value.items()}
     if is_object(value):
-        new = copy(value)
+        kind: Any = type(value)
+        new = kind.__new__(kind)  # a copy would leave a mark in it
         vars(new).update((name, _missing(part)) for name, part in vars(value).items())
         return new
     if isinstance(value, Quantity):

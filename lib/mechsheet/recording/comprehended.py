@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from copy import deepcopy
 from functools import lru_cache
 
-from mechsheet.recording.forms import SCOPED, appended, taking
+from mechsheet.recording.forms import SCOPED, appended, call, taking
+from mechsheet.recording.ways import only_bind
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 
@@ -22,6 +23,12 @@ class Comprehended(ast.NodeTransformer):
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         self.generic_visit(node)
         node.body = kept_in_loops(node.body)
+        return node
+
+    def visit_For(self, node: ast.For) -> ast.AST:
+        self.generic_visit(node)
+        if not any(isinstance(part, ast.Break) for part in ast.walk(node)):
+            node.body = unskipped(node.body)
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
@@ -38,6 +45,36 @@ class Comprehended(ast.NodeTransformer):
         if any(isinstance(part, (*SCOPED, ast.Starred)) for part in ast.walk(node)):
             return node
         return ast.fix_missing_locations(ast.copy_location(found, node))
+
+
+def unskipped(body: list[ast.stmt]) -> list[ast.stmt]:
+    """Statements of a turn in which those that ``continue`` passes over are the other way of its condition."""
+    for n, line in enumerate(body):
+        match line:
+            case ast.If(test, [*way, ast.Continue()], orelse):
+                rest = unskipped([*orelse, *body[n + 1 :]])
+                if not (way or rest):
+                    return [*body[:n], ast.copy_location(ast.Expr(test), line)]
+                ways = (test, way, rest) if way else (ast.UnaryOp(ast.Not(), test), rest, [])
+                return [*body[:n], ast.fix_missing_locations(ast.copy_location(ast.If(*ways), line))]
+    return body
+
+
+def through_kept(node: ast.For) -> ast.stmt:
+    """A loop as one that goes through all elements of a list of those that are kept, each where it is one of them.
+
+    Where it is no such list, or does more than bind names, the loop itself.
+    """
+    if not isinstance(node.iter, ast.Name) or node.orelse or hasattr(node, "through_kept") or not only_bind(node.body):
+        return node
+    node.through_kept = True  # type: ignore[attr-defined]  # it is looked at no more
+    holds, kept = f"recorded holds {node.lineno}", f"recorded kept {node.lineno}"
+    target = ast.Tuple([ast.Name(holds, ast.Store()), ast.Name(kept, ast.Store())], ast.Store())
+    turn = [ast.Assign([node.target], ast.Name(kept, ast.Load())), *node.body]
+    loop = ast.For(target, call("each_kept", node, node.iter), [ast.If(ast.Name(holds, ast.Load()), turn, [])], [])
+    loop.as_sums = loop.through_kept = True  # type: ignore[attr-defined]
+    either = ast.If(call("is_kept", node, node.iter), [loop], [node])
+    return ast.fix_missing_locations(ast.copy_location(deepcopy(either), node))
 
 
 def _is_made(f: ast.expr) -> bool:

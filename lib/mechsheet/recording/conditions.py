@@ -11,7 +11,9 @@ import numpy as np
 
 from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import elementwise
+from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.operations import regrouped
+from mechsheet.quantities.options import is_same
 from mechsheet.quantities.quantity import Quantity, has_quantity
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
@@ -59,16 +61,11 @@ def member(value: Any, several: Any) -> Any:
     if not single or not isinstance(several, dict | list | tuple | set | frozenset):
         return value in several
     alike = NUMBERS | np.bool_ if isinstance(value, Quantity) else str | Written | NUMBERS | Chosen
-    same = [value == each for each in several if isinstance(each, alike)]
-    same += [none(value) for each in several if each is None]
-    if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in same):
+    met = [value == each for each in several if isinstance(each, alike)]
+    met += [same(value, None) for each in several if each is None]
+    if not all(isinstance(each, bool | np.bool_) or is_condition(each) for each in met):
         return value in several
-    return reduce(operator.or_, same, False)
-
-
-def none(value: Any) -> Any:
-    """``value is None``: of what may be None the condition."""
-    return elementwise("not")(perhaps.some_of(value)) if isinstance(value, perhaps.Perhaps) else value is None
+    return reduce(operator.or_, met, False)
 
 
 def matched(value: Any) -> Any:
@@ -77,6 +74,22 @@ def matched(value: Any) -> Any:
     if isinstance(value, tuple | list) and has_quantity(value):
         return regrouped(value, map(matched, value))
     return bool(value) if is_condition(value) and value.re.value.dtype == bool else value
+
+
+def same(x: Any, y: Any) -> Any:
+    """``x is y``: of None, of objects and of conditions."""
+    if y is None:
+        return elementwise("not")(perhaps.some_of(x)) if isinstance(x, perhaps.Perhaps) else x is y
+    if isinstance(y, bool):
+        return matched(x) is y
+    held, other = perhaps.itself(x), perhaps.itself(y)
+    found = is_same(held, other)
+    if found is None and has_quantity([held, other]):
+        raise NotRecorded("whether two rows are the same one is not followed")
+    found = held is other if found is None else found
+    if not isinstance(x, perhaps.Perhaps) and not isinstance(y, perhaps.Perhaps):
+        return found
+    return (perhaps.some_of(x) & perhaps.some_of(y) & found) | (same(x, None) & same(y, None))
 
 
 def some(values: Any) -> Any:
@@ -101,4 +114,6 @@ def _whether(values: Any, kind: str, fold: Callable[[Any, Any], Any]) -> Any:
     return reduce(fold, (x != 0 if isinstance(x, Quantity) and x.dtype != bool else x for x in each))
 
 
-CALLS: dict[str, Any] = {"and": both, "or": any_of, "not": negated, "none": none, "matched": matched, "member": member}
+CALLS: dict[str, Any] = {
+    "and": both, "or": any_of, "not": negated, "same": same, "matched": matched, "member": member,
+}  # fmt: skip

@@ -359,6 +359,5 @@ def _from_start(*ends: Any) -> bool:
 
 
 CALLS: dict[str, Any] = {
-    "of_rows": of_rows, "sums": sums, "listed": listed, "zip": paired, "enumerate": numbered, "range": counted,
-    "place": placed,
+    "sums": sums, "zip": paired, "enumerate": numbered, "range": counted, "place": placed,
 }  # fmt: skip

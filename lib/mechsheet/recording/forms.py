@@ -136,18 +136,16 @@ def gone_through(items: ast.expr) -> ast.expr:
 
 
 def asked(node: ast.Compare) -> ast.expr:
-    """``x in several``, ``x is None`` and what is the opposite of them as calls; any other comparison as it is."""
+    """``x is y``, ``x in several`` and what is the opposite of them as calls; any other comparison as it is."""
     match node:
+        case ast.Compare(x, [ast.Is()], [y]):
+            return call("same", node, x, y)
+        case ast.Compare(x, [ast.IsNot()], [y]):
+            return call("not", node, call("same", node, x, y))
         case ast.Compare(x, [ast.In()], several):
             return call("member", node, x, *several)
         case ast.Compare(x, [ast.NotIn()], several):
             return call("not", node, call("member", node, x, *several))
-        case ast.Compare(x, [ast.Is()], [ast.Constant(None)]):
-            return call("none", node, x)
-        case ast.Compare(x, [ast.IsNot()], [ast.Constant(None)]):
-            return call("not", node, call("none", node, x))
-        case ast.Compare(x, [ast.Is() | ast.IsNot()]):
-            node.left = call("matched", node, x)
     return node
 
 

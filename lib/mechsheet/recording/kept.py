@@ -6,11 +6,11 @@ from types import FunctionType
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded, current
-from mechsheet.quantities.quantity import Quantity
-from mechsheet.recording import ordered
+from mechsheet.quantities.quantity import Quantity, has_quantity
+from mechsheet.recording import each_row, ordered
 from mechsheet.recording.among import Pair, of_all, plainly
 from mechsheet.recording.choices import is_condition, way_may_change
-from mechsheet.recording.each_row import EachRow, each_row, every_row
+from mechsheet.recording.each_row import EachRow, every_row
 from mechsheet.recording.sifted import Sifted
 
 _FURTHER = 200  # elements behind the first one that is kept now: an iterator may have no end
@@ -18,7 +18,9 @@ _FURTHER = 200  # elements behind the first one that is kept now: an iterator ma
 
 def kept_rows(f: FunctionType, one_by_one: Callable[..., Iterable[Pair]], *sources: Any) -> Iterable[Pair] | EachRow:
     """The elements that are kept of the rows of a table, however many these are, else the pairs of all of them."""
-    rows = each_row(f, *sources)
+    if len(sources) == 1 and is_kept(sources[0]):
+        return _of_those(sources[0], one_by_one)
+    rows = each_row.each_row(f, *sources)
     return one_by_one(*sources) if rows is None else rows
 
 
@@ -69,6 +71,44 @@ def sifted(pairs: Iterable[Pair] | EachRow) -> list[Any]:
     return [value for holds, value in every if holds]
 
 
+def is_kept(items: Any) -> bool:
+    """Whether a list of some elements of which each is kept by a condition."""
+    return type(items) is Sifted and bool(items.pairs)
+
+
+def _of_those(items: Sifted, one_by_one: Callable[..., Iterable[Pair]]) -> Iterable[Pair]:
+    """The pairs of what is kept already: an element is kept where both conditions hold."""
+    for holds, element in items.pairs:
+        if not is_condition(holds):
+            yield from one_by_one([element])
+            continue
+        graph = current.get()
+        graph.supposed += not holds.value
+        try:
+            pairs = [*one_by_one([element])]
+        except (Exception, NotRecorded):  # there is no such element
+            bool(holds)
+            pairs = []
+        finally:
+            graph.supposed -= not holds.value
+        for own, value in pairs:
+            yield (holds & (own if own.dtype == bool else own != 0) if is_condition(own) else own and holds), value
+
+
+def listed(f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
+    """A list of what ``f`` gives for each row, of those that are kept too."""
+    if len(sources) == 1 and is_kept(sources[0]):
+        return sifted((holds, lambda element=element: f(element)) for holds, element in sources[0].pairs)
+    return each_row.listed(f, plainly, *sources)
+
+
+def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
+    """What ``f`` gives for each row in all, for those that are kept too."""
+    if len(sources) == 1 and is_kept(sources[0]) and kind in ("sum", "min", "max"):
+        return of_all(kind, [(holds, lambda element=element: f(element)) for holds, element in sources[0].pairs], ())
+    return each_row.of_rows(kind, f, plainly, *sources)
+
+
 def _extreme(name: str) -> Callable[..., Any]:
     otherwise = ordered.CALLS[name]
 
@@ -80,14 +120,52 @@ def _extreme(name: str) -> Callable[..., Any]:
     return function
 
 
+class Ranked(Sifted):
+    """Elements in the order of their keys, of which the first and the last one hold for other inputs too."""
+
+    def __init__(self, pairs: list[tuple[Any, Any]], key: Any, reverse: bool) -> None:
+        super().__init__(pairs, of_all)
+        self._key, self._reverse = key, reverse
+        graph = current.get()
+        looked = dict(graph.looked)
+        list.sort(self, key=key, reverse=reverse)
+        graph.looked = looked
+
+    def __getitem__(self, place: Any) -> Any:
+        if not self.pairs or type(place) is not int or place not in (0, -1):
+            return super().__getitem__(place)
+        kind = "min" if (place == 0) is not self._reverse else "max"
+        pairs = self.pairs if place == 0 else self.pairs[::-1]  # of equal ones the last
+        if any(holds is not True for holds, _ in pairs):
+            by = self._key or (lambda value: value)
+            return of_all(f"{kind} by", [(holds, lambda value=value: value) for holds, value in pairs], (by,))
+        return ordered.CALLS[kind]([value for _, value in pairs], key=self._key)
+
+    def each(self) -> list[tuple[Any, Any]]:
+        """None of which it is known at which place they are."""
+        return []
+
+    def _look(self) -> None:
+        super()._look()
+        if self.pairs:
+            sorted(list.__iter__(self), key=self._key, reverse=self._reverse)
+
+
 def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> Any:
     """Python's sorted, of the rows of a table however many these are."""
     rows = None if isinstance(reverse, Quantity) else every_row(values)
     found = None if rows is None else rows.in_order(key, bool(reverse))
-    return ordered.ranked(values, key=key, reverse=reverse) if found is None else found
+    if found is not None or isinstance(reverse, Quantity):
+        return ordered.ranked(values, key=key, reverse=reverse) if found is None else found
+    if is_kept(values) and isinstance(values, Sifted):
+        return Ranked(values.pairs, key, bool(reverse))
+    each = list(values)
+    if key is not None and len(each) > ordered.SORTED and not way_may_change(key) and has_quantity([*map(key, each)]):
+        return Ranked([(True, value) for value in each], key, bool(reverse))
+    return ordered.ranked(each, key=key, reverse=reverse)
 
 
 CALLS: dict[str, Any] = {
     "of_kept": of_kept, "sifted": sifted, "kept_rows": kept_rows, "max": _extreme("max"), "min": _extreme("min"),
-    "sorted": ranked,
+    "sorted": ranked, "is_kept": is_kept, "each_kept": Sifted.each, "listed": listed, "of_rows": of_rows,
 }  # fmt: skip

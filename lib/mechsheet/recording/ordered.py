@@ -15,7 +15,7 @@ from mechsheet.quantities.refused import refused
 from mechsheet.recording.choices import NUMBERS, is_whole, merged, part_of
 from mechsheet.recording.sifted import Sifted
 
-_SORTED = 10  # rows that are put in order: each may stand at each place
+SORTED = 10  # rows that are put in order: each may stand at each place
 
 
 def _extreme(name: str) -> Callable[..., Any]:
@@ -74,7 +74,7 @@ def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> A
     if key is None and has_quantity(each) and all(isinstance(v, NUMBERS) for v in each):
         found: Any = np.sort(lift(current.get(), each))
         return list(found)[::-1] if reverse else list(found)
-    keys = [key(value) for value in each] if key is not None and 1 < len(each) <= _SORTED else []
+    keys = [key(value) for value in each] if key is not None and 1 < len(each) <= SORTED else []
     follows = has_quantity(keys) and all(isinstance(k, NUMBERS) for k in keys) and not isinstance(reverse, Quantity)
     return (follows and _by_rank(each, keys, bool(reverse))) or sorted(each, key=key, reverse=reverse)
 

@@ -192,6 +192,3 @@ def _whole(kind: str, each: Quantity) -> Any:
     if kind in ("any", "all"):
         return (each if each.dtype == bool else each != 0).reduced(kind)
     return each if kind == "array" else as_count(each.reduced(kind), each)
-
-
-CALLS: dict[str, Any] = {"of_rows": of_rows}

@@ -25,13 +25,12 @@ from mechsheet.recording import (
     named,
     ordered,
     own_arrays,
-    per_row,
     raised,
     rows_checked,
 )
 from mechsheet.recording.appended_alike import appended_alike
 from mechsheet.recording.by_turn import by_turn
-from mechsheet.recording.comprehended import Comprehended
+from mechsheet.recording.comprehended import Comprehended, through_kept
 from mechsheet.recording.forms import (
     OF_KEPT,
     SCOPED,
@@ -71,8 +70,8 @@ from mechsheet.worksheet import source
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
-CALLS |= raised.CALLS | per_row.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS
-CALLS |= named.CALLS | inspected.CALLS
+CALLS |= raised.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS | named.CALLS
+CALLS |= inspected.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {
     *("float", "int", "complex", "len", "max", "min", "pow", "round"),
@@ -255,8 +254,10 @@ class _Rewriting(ast.NodeTransformer):
         result = ast.Return(ast.Tuple([ast.Name(name, ast.Load()) for name in names], ast.Load()))
         defined, chosen = _both_ways(node, [*node.body, result], [*node.orelse, result], names)
         lines = [*defined, ast.copy_location(ast.Assign([ast.Tuple(targets, ast.Store())], chosen), node)]
+        self.turns += 1  # the ways give back what stands for a name that they do not bind
         lines = [self.visit(line) for line in lines]
-        return [*lines, *self._unbound(sorted(then ^ otherwise), node)]
+        self.turns -= 1
+        return [*lines, *self._unbound(names, node)]
 
     def _put_where(self, node: ast.If, target: ast.Subscript, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
         """The element is looked for only where the statement sets it."""
@@ -279,7 +280,7 @@ class _Rewriting(ast.NodeTransformer):
             sums = None if ends or hasattr(node, "as_sums") else as_sums(node)
             node.as_sums = True  # type: ignore[attr-defined]  # it is looked at no more
             if sums or not (isinstance(node.target, ast.Name) and is_counted(node.iter)):
-                return [self.generic_visit(line) for line in sums or [node]]
+                return [self.generic_visit(line) for line in sums or [through_kept(node)]]
         if node.orelse and only_bind(node.body, *_ENDS):
             left = [*looking(node, node.orelse), unbound_left(node)]
             return [new for line in left for new in _lines(self.visit(line))]
