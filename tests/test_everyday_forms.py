@@ -574,6 +574,29 @@ def test_a_line_of_those_that_are_kept_is_known_while_they_are_the_same(tmp_path
             np.testing.assert_allclose(value_of(recording, "twice", given), expected["twice"])
 
 
+MANY = "T = [ROW for k in range(40)]\nbest = None\nfor t in T:\n    if D < 3 * g.F:\n        continue\n"
+MANY += "    if best is None or abs(D - 20 * g.a) < abs(BEST - 20 * g.a):\n        best = t\n"
+MANY += "y = BEST * g.a + (NAME == 'M14')"
+
+
+@pytest.mark.parametrize(
+    "row, d, name",
+    [
+        ("(k * 1.0, f'M{k:02}')", "t[0]", "t[1]"),
+        ("{'d': k * 1.0, 'name': f'M{k:02}'}", "t['d']", "t['name']"),
+        ("SimpleNamespace(d=k * 1.0, name=f'M{k:02}')", "t.d", "t.name"),
+    ],
+)
+def test_each_row_of_a_long_table_is_asked_once_whether_it_is_better(
+    row: str, d: str, name: str, tmp_path: Path
+) -> None:
+    """Twice as long for each further row it took, where two conditions decided: of forty it did not end."""
+    lines = MANY.replace("BEST", d.replace("t", "best", 1)).replace("NAME", name.replace("t", "best", 1))
+    lines = "from types import SimpleNamespace\n" + lines.replace("ROW", row).replace("D <", f"{d} <")
+    sheet = own(tmp_path, f"{lines.replace('D -', f'{d} -')}\nresult = np.atleast_1d(y) * 1  # [-] line")
+    assert_followed(sheet, recorded(sheet)[1], ({"F": 3.25}, {"F": 1.75, "a": 0.9}))
+
+
 @pytest.mark.parametrize("lines", LOOKED)
 def test_places_and_cases_are_followed_while_they_are_the_same(lines: str, tmp_path: Path) -> None:
     """Those of a list that is kept by conditions, and what a tuple with names is compared with."""

@@ -2,10 +2,28 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
+from operator import attrgetter, itemgetter
 from types import FunctionType, MethodType, SimpleNamespace
 from typing import Any
 
+from mechsheet.quantities.graph import current
+
 Merge = Callable[[Any, Any], Any]  # of what both have as a part, the one that is meant
+
+
+def _once(own: Any, key: Any, x: Any, y: Any, of: Callable[[Any], Any]) -> Any:
+    """The part of one of two that ``of`` reads, which is merged once unless Python sees which of the two it is."""
+    held, known, graph = vars(own), f"part {key!r}", current.get()
+    if known in held:
+        return held[known]
+    looked, graph.looked = graph.looked, {}
+    try:
+        found = own._merge(of(x), of(y))
+    finally:
+        seen, graph.looked = graph.looked, looked | graph.looked
+    if not seen:
+        held[known] = found
+    return found
 
 
 class Row(Mapping[Any, Any]):
@@ -15,8 +33,7 @@ class Row(Mapping[Any, Any]):
         self._merge, self._rows = merge, (x, y)
 
     def __getitem__(self, key: Any) -> Any:
-        x, y = self._rows
-        return self._merge(x[key], y[key])
+        return _once(self, key, *self._rows, itemgetter(key))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self._rows[0])
@@ -33,7 +50,9 @@ class Fields(Sequence[Any]):
 
     def __getitem__(self, key: Any) -> Any:
         x, y = self._rows
-        return tuple(map(self._merge, x[key], y[key])) if isinstance(key, slice) else self._merge(x[key], y[key])
+        if isinstance(key, slice):
+            return tuple(map(self._merge, x[key], y[key]))
+        return _once(self, key, x, y, itemgetter(key))
 
     def __len__(self) -> int:
         return len(self._rows[0])
@@ -42,7 +61,7 @@ class Fields(Sequence[Any]):
         """A part of a named tuple."""
         if name.startswith("_"):
             raise AttributeError(name)
-        return self._merge(*(getattr(row, name) for row in self._rows))
+        return _once(self, name, *self._rows, attrgetter(name))
 
 
 class Thing:
@@ -56,10 +75,9 @@ class Thing:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        x, y = self._things
-        if isinstance(method := getattr(_kind(x), name, None), FunctionType):
+        if isinstance(method := getattr(_kind(self._things[0]), name, None), FunctionType):
             return MethodType(method, self)
-        return self._merge(getattr(x, name), getattr(y, name))
+        return _once(self, name, *self._things, attrgetter(name))
 
     def __eq__(self, other: object) -> Any:
         x, y = self._things

@@ -271,9 +271,22 @@ def joined(sign: Any, parts: Any) -> Any:
 
 
 def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -> Written:
-    """One text where a condition holds, else the other one."""
+    """One text where a condition holds, else the other one; of ways in one another each text stands there once."""
     holds = holds if holds.dtype == bool else holds != 0
-    return Written((Either(holds, *(Written(tuple(_pieces([side]))) for side in (then, otherwise))),))
+    one, other = (Written(tuple(_pieces([side]))) for side in (then, otherwise))
+    match one.parts, other.parts:
+        case (Either(inner, text, rest),), _ if _is_same(rest, other):
+            return Written((Either(holds & inner, text, rest),))
+        case _, (Either(inner, text, rest),) if _is_same(rest, one):
+            return Written((Either((holds == 0) & inner, text, rest),))
+    return Written((Either(holds, one, other),))
+
+
+def _is_same(one: Written, other: Written) -> bool:
+    """Whether two texts are made of the same pieces."""
+    pairs = zip(one.parts, other.parts, strict=False)
+    alike = (a is b or (isinstance(a, str) and isinstance(b, str) and a == b) for a, b in pairs)
+    return len(one.parts) == len(other.parts) and all(alike)
 
 
 def seen(value: Any) -> Any:

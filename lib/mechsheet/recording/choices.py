@@ -208,7 +208,7 @@ def _missing(value: Any) -> Any:
         return {key: _missing(part) for key, part in value.items()}
     if is_object(value):
         kind: Any = type(value)
-        new = kind.__new__(kind)  # a copy would leave a mark in it
+        new = kind.__new__(kind)  # a copy would leave a mark in its class
         vars(new).update((name, _missing(part)) for name, part in vars(value).items())
         return new
     if isinstance(value, Quantity):
