@@ -207,6 +207,8 @@ LOOKED = [  # of which Python sees the places, or which of the cases it is
     ),
 ]
 CHOSEN = [
+    "t = 'low' if g.F > 3 else 'high'\ny = {'low': 2.0, 'mid': g.a}.get(t, g.F) + {'high': 5}.get(t, 0.0)",
+    "y = min([g.F, 2.7, g.a], default=0.0) + max((v * g.a for v in (1.0, g.F)), default=9) + min([], default=g.F)",
     "y = {0: 1.0, 2: 2.0}.get(g.k, g.F) * g.a",
     "y = {0: 1.0, 2: 2.0}.get(round(g.F), 7.0) * g.a + {'a': 1.0}.get('b', g.F)",
     "law = (lambda v: v**2) if g.F > 3 else (lambda v: 3 * v)\ny = law(x[0]) * g.a",

@@ -1,7 +1,6 @@
 """What Python decides by itself, for recorded quantities: which of two numbers, which element, the greater of some."""
 
 import operator
-import weakref
 from collections.abc import Callable
 from functools import partial, reduce
 from types import FunctionType
@@ -15,15 +14,15 @@ from mechsheet.quantities.arithmetic import elementwise, none_like, trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
-from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift, owner
+from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.refused import compared, pointed, refused, says, unless
 from mechsheet.quantities.selected import Selected, of_each
 from mechsheet.quantities.sketch import Sketch
 from mechsheet.quantities.sketch import merged as merged_sketch
-from mechsheet.quantities.text_column import Texts, held_in
+from mechsheet.quantities.text_column import Texts, among, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
-from mechsheet.recording.memory import before_ways, either_of, may_change, stands_for_others
+from mechsheet.recording.memory import before_ways, may_change, one_of, stands_for_others
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -126,7 +125,7 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if (each := of_each(lambda a, b: where(condition.graph, condition.reshape(()), a, b), x, y)) is not None:
         return each
     if isinstance(x, ARRAYS) and isinstance(y, ARRAYS) and _lengths(x) == _lengths(y):
-        return _one_of(where(condition.graph, condition.reshape(()), x, y), x, y)
+        return one_of(where(condition.graph, condition.reshape(()), x, y), x, y)
     if isinstance(x, FunctionType | np.poly1d) and isinstance(y, FunctionType | np.poly1d):
         return lambda *given, **named: _chosen(condition, x, y, *given, **named)
     return parted(partial(_part_of, condition), x, y)
@@ -153,14 +152,6 @@ def _perhaps(condition: Quantity, x: Any, y: Any) -> Any:
 
 def _is_truth(value: Any) -> bool:
     return isinstance(value, bool | np.bool_) or (isinstance(value, Quantity) and value.dtype == bool)
-
-
-def _one_of(made: Any, *ways: Any) -> Any:
-    """What stands for one of two arrays: who changes it in place changes one that may have another name."""
-    arrays = [owner(way) for way in ways if isinstance(way, np.ndarray | Quantity) and way.ndim]
-    if arrays:
-        made.ways = [weakref.ref(each) for array in arrays for each in (array, *either_of(array))]
-    return made
 
 
 def _part_of(condition: Quantity, x: Any, y: Any) -> Any:
@@ -317,6 +308,9 @@ def got(container: Any, key: Any, *otherwise: Any) -> Any:
     """``container.get(key, otherwise)``, where the key may be a quantity, a chosen option or a text of it."""
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option({option: container.get(option, *otherwise) for option in is_it}, key, is_it)
+    texts = among(current.get(), key) if isinstance(container, dict) and isinstance(key, Written) else None
+    if texts is not None:
+        return element({each: container.get(each, *otherwise) for each in texts[0]}, key)
     default = otherwise[0] if otherwise else None
     known = isinstance(container, dict) and isinstance(key, Quantity) and key.single
     if known and all(map(is_there, (*container, *container.values(), default))):

@@ -128,6 +128,14 @@ def either_of(array: Any) -> list[Any]:
     return [way for way in ways if way is not None]
 
 
+def one_of(made: Any, *ways: Any) -> Any:
+    """What stands for one of two arrays: who changes it in place changes one that may have another name."""
+    arrays = [owner(way) for way in ways if isinstance(way, np.ndarray | Quantity) and way.ndim]
+    if arrays:
+        made.ways = [weakref.ref(each) for array in arrays for each in (array, *either_of(array))]
+    return made
+
+
 def _reached(
     values: Iterable[Any],
     own: Mapping[str, Any],

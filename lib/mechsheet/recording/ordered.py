@@ -29,9 +29,9 @@ def _extreme(name: str) -> Callable[..., Any]:
         values = list(args[0]) if len(args) == 1 and isinstance(args[0], Iterable) else list(args)
         key = kwargs.get("key") or (lambda value: value)
         keys = [key(value) for value in values]
-        if kwargs.keys() - {"key"} or not has_quantity(keys):
+        if not values or kwargs.keys() - {"key", "default"} or not has_quantity(keys):
             return getattr(builtins, name)(*args if len(args) > 1 else [values], **kwargs)
-        if not kwargs and not any(isinstance(value, tuple | list) for value in values):
+        if "key" not in kwargs and not any(isinstance(value, tuple | list) for value in values):
             return reduce(fold, values)
         result, best = values[0], keys[0]
         for value, own in zip(values[1:], keys[1:], strict=True):
