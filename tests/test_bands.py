@@ -291,7 +291,7 @@ def test_a_bound_is_shown_rounded_so_that_it_still_holds(tmp_path, capsys):
 CHOSEN = """
 kinds = {"small": 1.0, "large": 2.0}
 kind = "small" if g.F < 3 else "large"
-s = kinds.get(kind, 0.0)  # [-] by a text
+s = kinds[kind.strip("!")]  # [-] by a text
 out = [1]
 while len(out) < g.F:
     out.append(1)

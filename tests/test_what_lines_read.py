@@ -54,7 +54,9 @@ OTHERS = {
     "list": "r = np.sum(np.array([w * g.a for w in (1, 2)]))  # [-] line",
     "key": "r = max([g.F, g.a], key=lambda w: -w)  # [-] line",
 }
-LOOP = "acc = 0.0\nfor w in (g.F, 1.0):\n    if w > 3:\n        continue\n    acc += w\nq = acc  # [-] of some"
+LOOP = (
+    "acc = 0.0\nfor w in (g.F, 1.0):\n    if f'{w:.0f}' > '3':\n        continue\n    acc += w\nq = acc  # [-] of some"
+)
 
 
 @pytest.mark.parametrize("lines", OTHERS.values(), ids=OTHERS)
