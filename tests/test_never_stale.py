@@ -9,6 +9,7 @@ from never_stale import assert_never_stale
 
 CONSTRUCTS = [
     "y = [g.F * k / g.a for k in (1.0, 1.5)]",
+    "v, w = x * 1.0, x * g.a\nu = v if g.F > 3 else w\nu[0] = 5.0\ny = v * 1.0",
     "y = (g.F / g.a, 2 * g.F)",
     "y = sorted([g.F, g.a, 2.0]) + [g.a]",
     "y = (x * g.a).tolist()",

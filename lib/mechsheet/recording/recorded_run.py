@@ -203,9 +203,7 @@ class Run(OfPositions):
                 raise NotRecorded(OTHER_NAME) if others else self.lost[min(gone)]
             exec(facts.code, self.names)
             if graph.untold:
-                alone = {
-                    name for name in final if getattr(getattr(self.names.get(name), "re", None), "op", "") == "exported"
-                }
+                alone = (n for n in final if getattr(getattr(self.names.get(n), "re", None), "op", "") == "exported")
                 self.recording.gaps.append(Gap(tuple(sorted(alone)), graph.line, graph.untold[0]))
                 graph.untold.clear()
             self.measure(touched, reads)
@@ -228,6 +226,8 @@ class Run(OfPositions):
             of_later = Memory.sharing(gives, map(self.namespace.get, self.to_change))  # which are others by then
             self.keep(stage, touched, final - of_later, self.why(error, reads), rests_on)
             beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            if not self.to_change.isdisjoint(touched):  # it may be another name of what it reads, and changes later
+                reached = Memory.sharing(self.names, map(self.names.get, under))
             beside = (beside | others | reached).difference(touched)
             self.lose(stage, beside | of_later, later | of_later, self.why(error, reads))
             stage.finish(lambda x: x)
