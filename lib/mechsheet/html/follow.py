@@ -82,8 +82,8 @@ class Follower:
                         told = [*every]
                     case _:
                         continue
-                for each in filter(None, told):
-                    if each.text.now == title and not self._sliders([guard.holds for guard in each.guards]):
+                for each in (each for each in told if each and each.text.now.rstrip() == title.rstrip()):
+                    if not self._sliders([guard.holds for guard in each.guards]):
                         self.told[id(part)] = each
 
     def follows(self, part: Any) -> bool:

@@ -13,6 +13,7 @@ _PLACE, _HELD = "\ue000", re.compile("\ue000(\\d+)\ue001")
 _FORMULA = re.compile(r"(\${1,2})(?:[^$\\]|\\.)+?\1")
 _IN_FORMULA = re.compile(r"<mn>9071(\d{4})9071</mn>")
 _NEGATIVE = re.compile(r"<mo(?: [^>]*)?>−</mo><mn>")
+_END = re.compile(r"\s+(?=</p>)")  # of a line with nothing but a piece that is empty now
 _MOST_WAYS = 16  # of a text: four choices between two
 _MARKUP = re.compile(r"[*_`$\\\[\]<>|#\n]|&[\w#]|^\s*([-+]|\d+[.)])\s")  # in a text that stands for another one
 
@@ -59,7 +60,7 @@ def pieces(text: Written, shown: Callable[[str], str], key: Key, ways: int = _MO
         return []
     split = _HELD.split(html)
     now = (Written((places[int(x)],)).now if n % 2 else unescape(x) for n, x in enumerate(split))
-    alike = (_NEGATIVE.sub("<mn>−", each) for each in ("".join(now), unescape(shown(text.now))))
+    alike = (_END.sub("", _NEGATIVE.sub("<mn>−", each)) for each in ("".join(now), unescape(shown(text.now))))
     if len({*alike}) > 1:  # such as 2. at the beginning, which makes a list
         return []
     return [piece(places[int(x)], key) if n % 2 else x for n, x in enumerate(split)]
