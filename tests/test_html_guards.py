@@ -307,7 +307,7 @@ def test_headings_and_texts_of_one_text_follow_each_by_itself(page: Page, tmp_pa
         expect(page.locator(".ms-between")).to_have_text([text])
 
 
-ENDED = '''import marimo as mo
+TRAILING = '''import marimo as mo
 mo.md(f"""
     The force is {g.F:.2f}.
     {"It is large." if g.F > 3 else ""}
@@ -316,7 +316,7 @@ mo.md(f"""
 
 def test_a_text_that_ends_in_what_is_nothing_now_follows(page: Page, tmp_path: Path) -> None:
     """It was gone for all other inputs, and nothing said why: it had the end of a line that the page did not show."""
-    sheet = own(tmp_path, "y = g.F * x  # [-] result", further=[ENDED])
+    sheet = own(tmp_path, "y = g.F * x  # [-] result", further=[TRAILING])
     (tmp_path / "own.html").write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
     page.goto((tmp_path / "own.html").as_uri())
     for number, text in (("2", "The force is 2.00."), ("4", "The force is 4.00. It is large.")):

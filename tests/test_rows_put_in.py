@@ -39,6 +39,7 @@ F: list[float] = [2.5, -1, 3]  # [-] forces
 bolts: list[Bolt] = [Bolt("b", 4, 3, 1), Bolt("a", 3, 5, 2), Bolt("c", 6, 4, 4.5), Bolt("d", 5, 5, 3)]  # bolts
 """
 FOLLOWED = [
+    "next((b for b in g.bolts if b.d > g.a), None).x * 1.0",
     "max(g.bolts, key=lambda b: b.w).x * g.a",
     "min(g.bolts, key=lambda b: abs(b.d - g.a)).x",
     "max(g.F, key=lambda v: abs(v))",
@@ -114,7 +115,6 @@ HELD = [  # what a list that Python looks into, its texts, or their order gives 
     "it = iter([b.x for b in g.bolts if b.d > 2])\nNAME = next(it) + next(it, 0.0)",
     "best = g.bolts[0]\nfor b in g.bolts:\n    if b.w > best.w:\n        best = b\nNAME = best.x * 1.0",
     "NAME = sum(b.x for b in g.bolts if all(b.d >= c.d - 3 for c in g.bolts)) * 1.0",
-    "NAME = next((b for b in g.bolts if b.d > g.a), None).x * 1.0",
 ]
 BOLTS = [("b", 4, 3, 1), ("a", 3, 5, 2), ("c", 6, 4, 4.5), ("d", 5, 5, 3)]
 GIVES: list[dict[str, Any]] = [

@@ -100,7 +100,7 @@ def _result(scope: Scope, node: Node) -> str:
 
 def _is_guarded(recording: Recording, node: Node) -> bool:
     """Whether a quantity is no number where Python takes another way than it took."""
-    return node in recording.seen and node.op == "where" and node.args[0] in recording.guards
+    return node.op == "where" and node.args[0] in recording.guards and bool(np.isnan(node.args[2].value).all())
 
 
 def _told(recording: Recording, scope: Scope, wanted: Mapping[str, Node], found: Mapping[str, Node]) -> Iterable[str]:

@@ -107,8 +107,7 @@ class Recording:
     worksheet has it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are
     taken; ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
     ``texts`` what captions, by their numbers, and cells say in texts that are others for other inputs; ``positions``
-    what is marked along charts, by the name of its quantity; ``seen`` what is no number unless Python sees what it
-    saw; ``values`` what the names are in the recording, ``looked``
+    what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
     the guards that these rest on. Only every ``every``-th position is recorded.
     """
 
@@ -126,7 +125,6 @@ class Recording:
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
     drawings: dict[int, list[Drawn | None]] = field(default_factory=dict)
     positions: dict[str, Node] = field(default_factory=dict)
-    seen: set[Node] = field(default_factory=set)
     said: dict[str, Written] = field(default_factory=dict)
     captions: dict[str, Said] = field(default_factory=dict)
     texts: dict[int, list[Said]] = field(default_factory=dict)

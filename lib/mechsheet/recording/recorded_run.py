@@ -401,7 +401,6 @@ class Run(OfPositions):
                 else:
                     self.graph.work = 0  # what guards a statement's numbers is none of its own operations
                     x = only_where(self.graph, Quantity(self.graph, guard.holds), x)
-                    self.recording.seen.update(x.parts)
         return x
 
     def while_are(self, leaves: Iterable[Node]) -> tuple[Guard, ...]:
