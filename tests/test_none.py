@@ -88,6 +88,8 @@ FOLLOWED = [
     "y = 1.0 if (r := next((d for d in (3.0, 3.5) if d > g.F), 0.5)) is None else r * g.a",
 ]
 LOOKED_AT = [
+    "hit, r, s, t = None, 1.0, 0.0, 0.0\nwhile hit is None:\n    t += 0.5\n    if r is None:\n        s += 1.0\n"
+    "    r = None if t > 3 else t\n    if t > g.F:\n        hit = t\ny = s + hit",
     "s, r = 0.0, 1.0\nfor k in range(g.n):\n    r = None if k * g.a > g.F else k * 1.0\n"
     "    s += 1.0 if r is None else r\ny = s + (0.5 if r is None else r)",
     "v = [g.F if g.F > 3 else None, g.a, None if g.a > 0.8 else 2.0][g.k % 3]\ny = -1.0 if v is None else v",

@@ -51,10 +51,12 @@ class _Apart:
 
     def parts(self, state: Sequence[Any]) -> tuple[Any, ...]:
         """The state, and behind it whether each of the names is there."""
-        numbers = [perhaps.itself(x) if n not in self._names or x is not None else np.nan for n, x in enumerate(state)]
-        if not all(isinstance(numbers[n], NUMBERS) for n in self._names):
-            raise NotRecorded("it is None or no number")
-        return (*numbers, *(perhaps.some_of(state[n]) for n in self._names))
+        parts = [*state]
+        for n in self._names:
+            parts[n] = np.nan if state[n] is None else perhaps.itself(state[n])
+            if not isinstance(parts[n], NUMBERS):
+                raise NotRecorded("it is neither None nor a number")
+        return (*parts, *(perhaps.some_of(state[n]) for n in self._names))
 
     def whole(self, parts: Sequence[Any]) -> tuple[Any, ...]:
         """The state itself."""
