@@ -6,8 +6,8 @@ from copy import copy
 from dataclasses import fields, is_dataclass
 from typing import Any
 
+from mechsheet.quantities import perhaps
 from mechsheet.quantities.graph import Graph
-from mechsheet.quantities.perhaps import Number as Perhaps
 from mechsheet.quantities.quantity import Quantity
 
 _PLAIN = (bool, int, float, complex, str)
@@ -46,7 +46,7 @@ def _note(graph: Graph, looked: Mapping[Any, Any], numbered: Mapping[Any, Any]) 
 
 
 def _known(value: Any) -> Any:
-    if isinstance(value, Quantity) and not isinstance(value, Perhaps):
+    if isinstance(value, Quantity) and not isinstance(value, perhaps.Number):
         return Quantity, value.re, value.im
     if isinstance(value, _PLAIN):
         return type(value), repr(value)  # tells -0.0 from 0.0
@@ -57,7 +57,7 @@ def _copied(given: Any) -> Any:
     """The same quantities in objects of their own, in which a worksheet may put others."""
     if isinstance(given, _PLAIN):
         return given
-    if isinstance(given, Quantity) and not isinstance(given, Perhaps):
+    if isinstance(given, Quantity) and not isinstance(given, perhaps.Number):
         copied = Quantity(given.graph, given.re, given.im)
         copied.base = given.base
         return copied

@@ -1,7 +1,6 @@
 """What code asks of the type of a value: told of the number, array or text that the worksheet has in its place."""
 
 import ast
-import builtins
 import sys
 from collections.abc import Callable
 from typing import Any
@@ -71,8 +70,5 @@ def _of_numpy(ask: Callable[..., Any]) -> Callable[..., Any]:
 
 
 FUNCTIONS |= {ask: _of_numpy(ask) for ask in (np.isscalar, np.iterable)}
-ASKING = {
-    ask.__name__: lambda x, *of, _ask=ask: _told(_ask, x, *of)
-    for ask in (builtins.isinstance, builtins.hasattr, builtins.callable)
-}
+ASKING = {ask.__name__: lambda x, *of, _ask=ask: _told(_ask, x, *of) for ask in (isinstance, hasattr, callable)}
 CALLS: dict[str, Any] = {"type": _kind, "matched by type": _matched}

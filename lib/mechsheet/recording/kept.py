@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from itertools import islice
 from types import FunctionType
-from typing import Any
+from typing import Any, TypeGuard
 
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.quantity import Quantity, has_quantity
@@ -71,7 +71,7 @@ def sifted(pairs: Iterable[Pair] | EachRow) -> list[Any]:
     return [value for holds, value in every if holds]
 
 
-def is_kept(items: Any) -> bool:
+def is_kept(items: Any) -> TypeGuard[Sifted]:
     """Whether a list of some elements of which each is kept by a condition."""
     return type(items) is Sifted and bool(items.pairs)
 
@@ -137,8 +137,7 @@ class Ranked(Sifted):
         kind = "min" if (place == 0) is not self._reverse else "max"
         pairs = self.pairs if place == 0 else self.pairs[::-1]  # of equal ones the last
         if any(holds is not True for holds, _ in pairs):
-            by = self._key or (lambda value: value)
-            return of_all(f"{kind} by", [(holds, lambda value=value: value) for holds, value in pairs], (by,))
+            return Sifted(pairs, of_all).of(f"{kind} by", self._key or (lambda value: value))
         return ordered.CALLS[kind]([value for _, value in pairs], key=self._key)
 
     def each(self) -> list[tuple[Any, Any]]:
@@ -155,9 +154,11 @@ def ranked(values: Iterable[Any], *, key: Any = None, reverse: Any = False) -> A
     """Python's sorted, of the rows of a table however many these are."""
     rows = None if isinstance(reverse, Quantity) else every_row(values)
     found = None if rows is None else rows.in_order(key, bool(reverse))
-    if found is not None or isinstance(reverse, Quantity):
-        return ordered.ranked(values, key=key, reverse=reverse) if found is None else found
-    if is_kept(values) and isinstance(values, Sifted):
+    if found is not None:
+        return found
+    if isinstance(reverse, Quantity):
+        return ordered.ranked(values, key=key, reverse=reverse)
+    if is_kept(values):
         return Ranked(values.pairs, key, bool(reverse))
     each = list(values)
     if key is not None and len(each) > ordered.SORTED and not way_may_change(key) and has_quantity([*map(key, each)]):

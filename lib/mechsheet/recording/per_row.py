@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import as_count
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up, free_of
 from mechsheet.quantities.operations import ELEMENTWISE, regrouped
-from mechsheet.quantities.perhaps import Number as Perhaps
 from mechsheet.quantities.quantity import Quantity, lift
 from mechsheet.quantities.refused import each_row
 from mechsheet.quantities.selected import Selected
@@ -179,7 +179,7 @@ def _is_formula(each: Quantity, rows: Collection[Node]) -> bool:
 
 def _column(each: Quantity, rows: dict[Node, Node]) -> Quantity:
     """The values of a formula for all rows."""
-    if isinstance(each, Perhaps):
+    if isinstance(each, perhaps.Number):
         raise NotRecorded("it is None for some rows")
     if not _is_formula(each, rows):
         raise NotRecorded("it is no formula of single numbers")

@@ -224,11 +224,9 @@ def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
         match node:
             case ast.AugAssign(ast.Name() as name) | ast.Subscript(ast.Name() as name, ctx=ast.Store()):
                 yield name
-            case ast.Call(ast.Attribute(ast.Name() as of, function), args) if function in ARRANGING | FILLING:
-                yield of  # which is numpy itself where it is a function of that
-                yield from (arg for arg in args[:1] if isinstance(arg, ast.Name) and function in FILLING)
-            case ast.Call(ast.Attribute(_, function), [ast.Name() as name, *_]) if function in FILLING:
-                yield name
+            case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
+                filled = args[:1] if function in FILLING else ()
+                yield from (each for each in (of, *filled) if isinstance(each, ast.Name))  # or of numpy itself
             case ast.keyword("out", ast.Name() as name):
                 yield name
 
