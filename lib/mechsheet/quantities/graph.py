@@ -1,7 +1,6 @@
 """The graph of a recording: quantities as operations on other quantities, and how they are made."""
 
 import math
-import weakref
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -11,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.quantities.lengths import Lengths
+from mechsheet.quantities.meant import Meant
 from mechsheet.quantities.node import Block, Loop, Node, is_number, is_whole, steps_of
 from mechsheet.quantities.operations import ELEMENTWISE, REDUCE, REDUCE_SO_FAR, Along, Moved, Values
 
@@ -94,7 +94,7 @@ class Graph(Lengths):
         self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape
         self.looked: dict[Node, Guard] = {}  # by their conditions; since somebody emptied it
         self.numbered: dict[Node, Guard] = {}  # those of numbers of rows and of turns, likewise
-        self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
+        self.meant = Meant()  # what stands for one of several, or for another one
         self.called: dict[Any, Any] = {}  # what functions gave, see `once`, and what numpy's elementwise ones did
         self.supposed, self.ways = 0, list[Any]()  # how many ways are recorded that Python does not take; conditions
         self.labels: dict[Node, Label] = {}

@@ -1,29 +1,51 @@
-"""Rows and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
+"""Rows, lists and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
-from operator import attrgetter, itemgetter
+from operator import attrgetter, itemgetter, setitem
 from types import FunctionType, MethodType, SimpleNamespace
 from typing import Any
 
-from mechsheet.quantities.graph import current
+from mechsheet.quantities.graph import NotRecorded, current
 
 Merge = Callable[[Any, Any], Any]  # of what both have as a part, the one that is meant
+NEW = "one of several objects is given a part that it had not"
 
 
 def _once(own: Any, key: Any, x: Any, y: Any, of: Callable[[Any], Any]) -> Any:
     """The part of one of two that ``of`` reads, which is merged once unless Python sees which of the two it is."""
-    held, known, graph = vars(own), f"part {key!r}", current.get()
-    if known in held:
-        return held[known]
+    held, known, graph, now = vars(own), f"part {key!r}", current.get(), [of(each) for each in _every(own, x, y)]
+    if known in held and all(a is b for a, b in zip(now, held[known][0], strict=True)):
+        return held[known][1]
     looked, graph.looked = graph.looked, {}
     try:
         found = own._merge(of(x), of(y))
     finally:
         seen, graph.looked = graph.looked, looked | graph.looked
     if not seen:
-        held[known] = found
+        held[known] = now, found
     return found
+
+
+def _every(own: Any, *ways: Any) -> list[Any]:
+    """All rows or objects of which one is meant, each once."""
+    if "_each" not in (held := vars(own)):
+        each = (_every(way, *_ways(way)) if isinstance(way, Row | Fields | Thing) else [way] for way in ways)
+        held["_each"] = [*{id(one): one for part in each for one in part}.values()]
+    every: list[Any] = held["_each"]
+    return every
+
+
+def _ways(one: Any) -> Sequence[Any]:
+    ways: Sequence[Any] = one._things if isinstance(one, Thing) else one._rows
+    return ways
+
+
+def _set(own: Any, ways: Sequence[Any], value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
+    """Give a part of one of two a value: it is set in each of them where that one is meant."""
+    x, y = ways
+    put(x, own._merge(value, of(x)))
+    put(y, own._merge(of(y), value))  # as it is by now: the first may be in it
 
 
 class Row(Mapping[Any, Any]):
@@ -34,6 +56,11 @@ class Row(Mapping[Any, Any]):
 
     def __getitem__(self, key: Any) -> Any:
         return _once(self, key, *self._rows, itemgetter(key))
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        if key not in self._rows[0]:
+            raise NotRecorded(NEW)
+        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self._rows[0])
@@ -53,6 +80,11 @@ class Fields(Sequence[Any]):
         if isinstance(key, slice):
             return tuple(map(self._merge, x[key], y[key]))
         return _once(self, key, x, y, itemgetter(key))
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        if isinstance(key, slice):
+            raise NotRecorded(NEW)
+        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __len__(self) -> int:
         return len(self._rows[0])
@@ -79,6 +111,18 @@ class Thing:
             return MethodType(method, self)
         return _once(self, name, *self._things, attrgetter(name))
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            super().__setattr__(name, value)
+            return
+        kind: Any = _kind(self)
+        usual = kind.__setattr__ in (object.__setattr__, SimpleNamespace.__setattr__)
+        if not usual or hasattr(getattr(kind, name, None), "__set__"):
+            raise NotRecorded(f"{kind.__name__} says itself what it is to set {name}")
+        if not hasattr(self._things[0], name):
+            raise NotRecorded(NEW)
+        _set(self, self._things, value, attrgetter(name), lambda thing, part: setattr(thing, name, part))
+
     def __eq__(self, other: object) -> Any:
         x, y = self._things
         return self._merge(x == other, y == other)
@@ -92,14 +136,14 @@ def is_same(x: Any, y: Any) -> Any:
     """``x is y``, where either may be one of two; None where a row of numbers is one that nobody can tell."""
     for one, other in ((x, y), (y, x)):
         if isinstance(one, Row | Fields | Thing):
-            ways = [is_same(each, other) for each in (one._things if isinstance(one, Thing) else one._rows)]
+            ways = [is_same(each, other) for each in _ways(one)]
             return None if any(way is None for way in ways) else one._merge(*ways)
     return None if x is not y and isinstance(x, tuple | list) and isinstance(y, tuple | list) else x is y
 
 
 def changed(change: Callable[[Any], Any], one: "Row | Fields | Thing") -> Any:
     """One of two rows or objects, each of its parts changed."""
-    merge, both = one._merge, one._things if isinstance(one, Thing) else one._rows
+    merge, both = one._merge, _ways(one)
     return type(one)(lambda x, y: change(merge(x, y)), *both)
 
 

@@ -12,6 +12,7 @@ from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import elementwise, none_like, trunc, whole
 from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.of_lists import OneOfLists
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
@@ -22,7 +23,7 @@ from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts, among, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
-from mechsheet.recording.memory import before_ways, may_change, one_of, stands_for_others
+from mechsheet.recording.memory import before_ways, may_change, one_of, stands_for_others, taken
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.kinds import Chosen, cases
@@ -71,7 +72,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
     compared(condition)
     graph, (now, later) = condition.graph, (x, y) if condition.value else (y, x)
     before = before_ways(now, later, *given, *named.values())
-    looked, holds, both = dict(graph.looked), bool(condition.value), None
+    looked, holds, both, other = dict(graph.looked), bool(condition.value), None, UNBOUND
     try:
         value = on_way(condition, holds, now, *given, **named)
     except Refused:  # of a way that leads here is only supposed that it is gone
@@ -100,6 +101,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
         graph.looked = looked
         if value is not None or other is not None:
             bool(condition)
+            taken(value, other)
         return value
     return both
 
@@ -114,10 +116,12 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
         return UNBOUND
     if x is UNBOUND or y is UNBOUND:
         return refused(merged(condition, _bound(x, y), _bound(y, x)), read=False)
-    if type(x) is type(y) and isinstance(x, tuple | list) and len(x) == len(y):
+    alike = {type(x), type(y)} <= {list, OneOfLists} or (type(x) is type(y) and isinstance(x, tuple | list))
+    if alike and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
         if all(part is not None for part in parts):
-            return regrouped(x, parts)
+            part = partial(part_of, condition)
+            return OneOfLists(parts, condition.graph.meant, part, x, y) if isinstance(x, list) else regrouped(x, parts)
     if isinstance(x, Sketch) and isinstance(y, Sketch):
         return merged_sketch(condition, x, y)
     if _are_written(x, y):
@@ -251,7 +255,7 @@ def element(container: Any, key: Any) -> Any:
     seen = key.seen()
     if seen.size != 1:
         return container[seen]
-    return container[int(seen.item()) if isinstance(container, list | tuple) else seen.item()]
+    return taken(container[int(seen.item()) if isinstance(container, list | tuple) else seen.item()], container)
 
 
 def is_there(value: Any, kinds: Any = NUMBERS) -> bool:
@@ -261,10 +265,12 @@ def is_there(value: Any, kinds: Any = NUMBERS) -> bool:
 
 def _row_at(values: dict[Any, Any], key: Quantity) -> Any:
     """The row at a key that is one of several now; None of what is no row."""
-    (row,) = (value for known, value in values.items() if key.value == known)
+    (now,) = (value for known, value in values.items() if key.value == known)
     if len(values) <= _ROWS:
+        row = now
         for known, value in values.items():
-            row = None if row is None else part_of(key == known, value, row)
+            if value is not now:  # which is meant where no other one is
+                row = None if row is None else part_of(key == known, value, row)
         if row is not None:
             key.graph.see(reduce(operator.or_, (key == known for known in values)).re)
             return row

@@ -105,7 +105,7 @@ def _made(kind: str, column: Quantity, before: Any) -> Any:
         or graph.size(before.re) != graph.size(column.re)
     ):
         return None
-    graph.gone.append(weakref.ref(owner(before)))
+    graph.meant.gone.append(weakref.ref(owner(before)))
     return column
 
 

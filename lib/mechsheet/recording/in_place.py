@@ -17,7 +17,7 @@ from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
 from mechsheet.recording import exactly
 from mechsheet.recording.choices import element
-from mechsheet.recording.memory import either_of
+from mechsheet.recording.memory import either_of, taken
 
 OTHER_NAME = "an array is changed that has another name too"
 _NOT_SET = object()  # an element that there is not
@@ -34,7 +34,7 @@ def put(array: Any, key: Any, value: Any) -> Any:
         array[key] = value
         return array
     graph = next(quantities([array, key, value])).graph
-    graph.gone += former([array])
+    graph.meant.gone += former([array])
     return _put(lift(graph, array), key, value)
 
 
@@ -160,10 +160,10 @@ def part_of(array: Any, key: Callable[[], Any]) -> Any:
 def held(container: Any, key: Any) -> Any:
     """``container[key]``, which is changed in place: of several lists Python looks which one it is."""
     if isinstance(container, dict) and isinstance(key, Written):
-        return container[str(key)]
+        return taken(container[str(key)], container)
     if isinstance(container, dict | list) and isinstance(key, Quantity) and key.single:
         number = key.seen().item()
-        return container[int(number) if isinstance(container, list) else number]
+        return taken(container[int(number) if isinstance(container, list) else number], container)
     return element(container, key)
 
 
@@ -181,7 +181,7 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
         return exactly.operated(operation, old, value, f"i{operation.rstrip('_')}")
     graph = next(quantities([old, value])).graph
-    graph.gone += former([old])
+    graph.meant.gone += former([old])
     new = lift(graph, getattr(operator, operation)(old, value))
     if new.extent != lift(graph, old).extent:
         raise ValueError(f"an array of shape {lift(graph, old).extent} cannot hold one of shape {new.extent}")
@@ -194,7 +194,7 @@ def arranged(old: Any, method: str, *args: Any) -> Any:
         getattr(old, method)(*args)
         return old
     graph = next(quantities([old, *args])).graph
-    graph.gone += former([old])
+    graph.meant.gone += former([old])
     array = lift(graph, old)
     return np.sort(array, *args) if method == "sort" else np.full_like(array, *args)
 
@@ -221,7 +221,7 @@ def left(arrays: list[Any]) -> None:
 def settled(new: Any) -> None:
     """End the change of an array for which another one has been put: nobody else may know the old one."""
     if isinstance(new, Quantity):
-        gone, new.graph.gone = new.graph.gone, []
+        gone, new.graph.meant.gone = new.graph.meant.gone, []
         left(gone)
 
 

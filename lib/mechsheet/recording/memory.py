@@ -25,7 +25,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mechsheet.quantities.graph import current
 from mechsheet.quantities.node import Node
+from mechsheet.quantities.of_lists import OneOfLists
 from mechsheet.quantities.quantity import Quantity, owner
 from mechsheet.recording.sifted import Sifted
 
@@ -63,6 +65,7 @@ class Memory:
         self.held: dict[int, tuple[Any, list[Any] | None]] = {}  # what is held, and its parts, by the identity
         self._beneath: dict[int, Any] = {}  # what nobody compares: it stands in what only its own code looks into
         self._own = own
+        current.get().meant.memories.add(self)
         self.add(values)
 
     def add(self, values: Iterable[Any]) -> None:
@@ -82,6 +85,12 @@ class Memory:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = known, parts
 
+    def holding(self) -> Iterator[int]:
+        """Identities of what is held here, each as often as it is."""
+        for value, parts in self.held.values():
+            yield id(value)
+            yield from map(id, parts or ())
+
     def follow(self) -> None:
         """Look at what the functions among the values read as well, which they may change."""
         known = 0
@@ -98,6 +107,11 @@ class Memory:
         return {
             key for key, (value, parts) in self.held.items() if not _is_fixed(value) and not _as_it_was(value, parts)
         }
+
+    def others(self, changed: set[int]) -> set[int]:
+        """Identities of what would have changed for other inputs instead of what Python has looked for."""
+        known = current.get().meant.taken
+        return Memory([known[key][1] for key in changed & known.keys()], self._own).mutable()
 
     @staticmethod
     def named(names: Mapping[str, Any], objects: set[int]) -> set[str]:
@@ -136,6 +150,16 @@ def one_of(made: Any, *ways: Any) -> Any:
     return made
 
 
+def taken(value: Any, *ways: Any) -> Any:
+    """What Python has looked for, and took out of what would give another one for other inputs."""
+    if not isinstance(value, _LEAVES):
+        known = current.get().meant.taken
+        for key, (each, _) in Memory([value], {}).held.items():
+            if not _is_fixed(each) and not isinstance(each, weakref.ref):
+                known.setdefault(key, (each, ways))
+    return value
+
+
 def _reached(
     values: Iterable[Any],
     own: Mapping[str, Any],
@@ -148,7 +172,7 @@ def _reached(
     Not what is ``held`` already or, of what only its own code looks into, ``beneath``; there it is added, by its
     identity.
     """
-    waiting = _to_look_at(values, hidden=False)
+    waiting, others = _to_look_at(values, hidden=False), current.get().meant.taken
     while waiting:
         value, hidden = waiting.pop()
         if isinstance(value, Quantity | np.ndarray):
@@ -169,6 +193,8 @@ def _reached(
         parts, seen[id(value)] = parts_of(value), None
         yield value, hidden, parts
         waiting += _to_look_at(parts or (), hidden)
+        if id(value) in others:
+            waiting += _to_look_at(others[id(value)][1], hidden)
         waiting += _to_look_at(_hidden(value), hidden=True)
 
 
@@ -191,7 +217,7 @@ def _sets(code: CodeType) -> bool:
 def _is_fixed(value: Any) -> bool:
     if isinstance(value, FunctionType) and vars(value):  # of a function attributes alone
         return False
-    return (_of_this(value) and not isinstance(value, Sifted)) or isinstance(value, _UNCHANGED)
+    return (_of_this(value) and not isinstance(value, Sifted | OneOfLists)) or isinstance(value, _UNCHANGED)
 
 
 def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
@@ -232,6 +258,8 @@ def _parts(value: Any) -> list[Any] | None:
     match value:
         case Sifted():
             return value.held()
+        case OneOfLists():
+            return [*value, *value.ways]
         case list() | tuple() | deque() | set() | frozenset():
             return list(value)
         case _ if isinstance(value, _MAPPINGS):

@@ -11,9 +11,9 @@ from mechsheet.quantities.graph import Graph, current
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.every_line import add_lines
 from mechsheet.recording.exactly import Unmoved
+from mechsheet.recording.own_values import shown
 from mechsheet.recording.positions import lacking, rows_of, step_of
 from mechsheet.recording.recorded_run import Run
-from mechsheet.recording.stage import shown
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import stating
 from mechsheet.worksheet.lines import Formula, registry

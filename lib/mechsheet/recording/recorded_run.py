@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.quantities.arithmetic import only_where, sized
 from mechsheet.quantities.graph import Gap, Graph, Guard, NotRecorded
 from mechsheet.quantities.lines import Recording, leaves_of
-from mechsheet.quantities.node import Node, conditions
+from mechsheet.quantities.node import Node
+from mechsheet.quantities.of_lists import CHANGED
 from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
@@ -24,12 +24,14 @@ from mechsheet.recording import exactly, setting_up, showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.comprehended import of_cell
 from mechsheet.recording.given import given
+from mechsheet.recording.guarded import Guarded
 from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
 from mechsheet.recording.named import in_words
+from mechsheet.recording.own_values import held, is_array, is_number, may_be_kept
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.sifted import in_one
-from mechsheet.recording.stage import Stage, held, is_array, is_number
+from mechsheet.recording.stage import Stage
 from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
@@ -41,7 +43,7 @@ from mechsheet.worksheet.title import Mark, Slider
 _PLACES = {"argmax", "argmin", "argsort"}
 
 
-class Run(OfPositions):
+class Run(Guarded, OfPositions):
     """One run of a worksheet's cells, statement by statement."""
 
     def __init__(
@@ -179,7 +181,8 @@ class Run(OfPositions):
         """
         graph = self.graph
         graph.line, graph.looked, graph.numbered, graph.work = line, {}, {}, 0
-        del graph.gone[:], graph.chosen[:]
+        del graph.chosen[:]
+        graph.meant.forget()
         staged.set(stage.shows)
         reads, before = self.reading(facts.loaded)
         under, unknown = reads | facts.former, facts.former.intersection(self.lost).difference(self.names)
@@ -202,6 +205,8 @@ class Run(OfPositions):
             if others or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
                 raise NotRecorded(OTHER_NAME) if others else self.lost[min(gone)]
             exec(facts.code, self.names)
+            if graph.meant.disturbed():
+                raise NotRecorded(CHANGED)
             if graph.untold:
                 alone = (n for n in final if getattr(getattr(self.names.get(n), "re", None), "op", "") == "exported")
                 self.recording.gaps.append(Gap(tuple(sorted(alone)), graph.line, graph.untold[0]))
@@ -225,7 +230,8 @@ class Run(OfPositions):
             gives = {name: self.namespace.get(name) for name in final}
             of_later = Memory.sharing(gives, map(self.namespace.get, self.to_change))  # which are others by then
             self.keep(stage, touched, final - of_later, self.why(error, reads), rests_on)
-            beside = before.named(self.names, before.changed() | (before.mutable() if may_change else set()))
+            changed_now = before.changed() | graph.meant.disturbed() | (before.mutable() if may_change else set())
+            beside = before.named(self.names, changed_now)
             if not self.to_change.isdisjoint(touched):  # it may be another name of what it reads, and changes later
                 reached = Memory.sharing(self.names, map(self.names.get, under))
             beside = (beside | others | reached).difference(touched)
@@ -233,7 +239,8 @@ class Run(OfPositions):
             stage.finish(lambda x: x)
             return
         ways = may_change and bool(graph.looked)  # of which others change more
-        beside = before.named(self.names, before.changed() | (before.mutable() if ways else set())).difference(touched)
+        now = before.changed() | (before.mutable() if ways else set())
+        beside = before.named(self.names, now | before.others(now)).difference(touched)
         beside |= reached if graph.looked else set()
         known = {k: seen for k, seen in graph.looked.items() if not seen.lengths and (graph.refuses or not seen.why)}
         noted = {} if touched or beside else known
@@ -270,17 +277,6 @@ class Run(OfPositions):
             self.looked[name] = tuple(({guard.holds: guard for guard in self.looked.get(name, ())} | guards).values())
             self.hold(name, guards.values())
         stage.end(lambda x: self.while_same(x, guards.values()))
-
-    def hold(self, name: str, guards: Iterable[Guard]) -> None:
-        """Let the number of a name be none unless Python sees the same."""
-        value: Any = self.names.get(name)
-        kept = value
-        if isinstance(value, Selected):
-            kept = Selected(self.while_same(value.of, guards), value.holds)
-        elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
-            kept = self.while_same(value, guards)
-        if kept is not value:  # though the same array
-            kept.base, self.names[name] = value, kept
 
     def measure(self, touched: Iterable[str], reads: frozenset[str]) -> None:
         """Let unit constants that a statement binds be quantities, and numbers that a line declares in a unit.
@@ -345,7 +341,7 @@ class Run(OfPositions):
                 gaps.append(gap)
             for guard in guards:
                 self.note(guard)
-        known = [name for name in touched if name in final and name in self.namespace]
+        known = [name for name in touched if name in final and may_be_kept(name, self.namespace)]
         if isinstance(reason, Unrepeatable):
             self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
             known = []
@@ -368,7 +364,7 @@ class Run(OfPositions):
         every = [*self.recording.inputs.values()]
         for name in names:
             self.looked[name] = self.while_are(every)
-            if name in self.namespace and name not in later:
+            if name not in later and may_be_kept(name, self.namespace):
                 self.names[name] = stage.kept(self.namespace[name], every)
             else:
                 self.names.pop(name, None)
@@ -389,31 +385,6 @@ class Run(OfPositions):
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
         return [x for x in names if not stage.same(self.names.get(x), self.namespace.get(x), x in self.lines)]
-
-    def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
-        """A quantity while Python sees the same, else no number."""
-        for guard in rests:
-            if not guard.lengths:
-                self.note(guard)
-            if any(guard.holds not in conditions(part, self.chosen) for part in x.parts):
-                if guard.lengths:
-                    x = sized(x, guard.holds)
-                else:
-                    self.graph.work = 0  # what guards a statement's numbers is none of its own operations
-                    x = only_where(self.graph, Quantity(self.graph, guard.holds), x)
-        return x
-
-    def while_are(self, leaves: Iterable[Node]) -> tuple[Guard, ...]:
-        """That some quantities are what they are now."""
-        return tuple(Guard(self.graph.same(leaf), self.graph.line) for leaf in leaves)
-
-    def note(self, guard: Guard) -> None:
-        """Note a guard, at the first line that saw the same."""
-        if guard.why and not self.graph.refuses:  # cells of a workbook follow all other inputs
-            return
-        known = self.recording.guards.get(guard.holds, guard)
-        same = known.rows or known._replace(line=guard.line) == guard  # a number of rows stays one whatever looks at it
-        self.recording.guards[guard.holds] = known if same else guard
 
     def read(self, loaded: Iterable[str]) -> frozenset[str]:
         """Names that a statement reads, and those that the functions of the worksheet read which it names."""

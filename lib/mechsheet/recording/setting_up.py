@@ -12,7 +12,7 @@ import numpy as np
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.recording.stage import is_array
+from mechsheet.recording.own_values import is_array
 from mechsheet.recording.statement import touched
 from mechsheet.recording.substitutes import shared
 from mechsheet.units import UNKNOWN

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import chain, count, repeat
 from typing import Any, TypeVar
@@ -22,13 +22,13 @@ from mechsheet.quantities.written import Written, seen
 from mechsheet.readers.terms import made_of
 from mechsheet.recording import showing, solving
 from mechsheet.recording.each_row import EachRow
+from mechsheet.recording.own_values import named_parts
 from mechsheet.recording.rows_checked import exists
 from mechsheet.recording.substitutes import body, instead
 from mechsheet.worksheet import find, system
 from mechsheet.worksheet.cells import Cell
 from mechsheet.worksheet.check import AGREED, Check, closed
 from mechsheet.worksheet.find import Found
-from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Figure, Table, listed
 from mechsheet.worksheet.verdict import Verdict
@@ -402,31 +402,10 @@ class Stage:
                 known = copy(own)  # which may have its keys as attributes
                 known.update((key, self.kept(v, rests_on)) for key, v in own.items())
                 return known
-        if is_dataclass(own) and not isinstance(own, type | Shown):
-            new = copy(own)  # without its checks, which look at numbers
-            for f in fields(own):
-                object.__setattr__(new, f.name, self.kept(getattr(own, f.name), rests_on))
-            return new
-        return own
-
-
-def shown(own: Any) -> bool:
-    """Whether a value of a worksheet is what a writer shows."""
-    group = own if isinstance(own, tuple | list) else [own]
-    return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)
-
-
-def held(own: Any) -> bool:
-    """Whether a value of a worksheet is one that a recording holds."""
-    if isinstance(own, tuple | list):
-        return any(held(v) for v in own)
-    if isinstance(own, dict):
-        return any(held(v) for v in own.values())
-    if isinstance(own, Table | Figure | Check | Verdict):
-        return True
-    return isinstance(own, int | float | complex | np.ndarray | np.generic) or (
-        is_dataclass(own) and not isinstance(own, type | Shown)
-    )
+        new = copy(own) if (names := named_parts(own)) else own  # without its checks, which look at numbers
+        for name in names:
+            object.__setattr__(new, name, self.kept(getattr(own, name), rests_on))
+        return new
 
 
 def _differences(f: Callable[..., Any], at: Quantity, step: Any) -> tuple[Any, Any]:
@@ -437,13 +416,3 @@ def _differences(f: Callable[..., Any], at: Quantity, step: Any) -> tuple[Any, A
         raise NotRecorded("a function of one number")
     first, second, fourth = (up - down for up, down in zip(each[::2], each[1::2], strict=True))
     return (8 * first - second) / (12 * step), (8 * second - fourth) / (24 * step)
-
-
-def is_array(own: Any) -> bool:
-    """Whether a value of a worksheet is an array of real numbers."""
-    return isinstance(own, np.ndarray) and own.dtype.kind in "iuf"
-
-
-def is_number(own: Any) -> bool:
-    """The same, or one such number."""
-    return isinstance(own, float | np.floating) or is_array(own)

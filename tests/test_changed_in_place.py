@@ -1,0 +1,122 @@
+"""What is changed in place, of which a condition tells which one it is: all others that it may be change with it."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from never_stale import assert_never_stale
+from own_worksheet import ELSEWHERE, assert_followed, own, recorded
+
+from mechsheet.recording.record import record
+
+TABLE = "T = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]]\n"
+TWO = "a, b = [1.0, 2.0], [3.0, g.a]\nc = a if g.F > 2 else b\n"
+POINTS = """from dataclasses import dataclass
+@dataclass
+class Point:
+    x: float
+    def move(self, by):
+        self.x += by
+T = [Point(1.0), Point(2.0), Point(3.0), Point(4.0)]
+"""
+SPACE = "from types import SimpleNamespace as S\n"
+ROWS = "T[2][0]", "T[3][0]"
+SUMS = "sum(T[2])", "sum(T[3])"
+PLACES = "T[2].x", "T[3].x"
+
+FOLLOWED = [
+    (TABLE + "c = T[g.k]\nc[0] = 50.0 * g.a", (*ROWS, "c[0]")),
+    (TABLE + "T[g.k][1] += g.F", SUMS),
+    (TABLE + "c = next(row for row in T if row[0] > g.F)\nc[0] = 50.0", ("T[1][0]", "T[2][0]")),
+    (TABLE + "def struck(row):\n    row[0] = g.a\nstruck(T[2] if g.F > 2 else T[3])", ROWS),
+    (TABLE + "c = T[g.k][:]\nc[0] = 9.0\nd = [*T[g.k]]\nd.append(g.F)", (*ROWS, "c[0] + sum(d)")),
+    (TWO + "c[0] = 50.0", ("a[0]", "b[0]", "c[0]")),
+    (TWO + "c[1] = g.F\nc[0] += c[1]", ("a[0]", "b[0]", "c[0] + c[1]")),
+    (
+        TWO.replace("[1.0, 2.0]", "{'x': 1.0}").replace("[3.0, g.a]", "{'x': g.a}") + "c['x'] = g.F",
+        ("a['x']", "b['x']"),
+    ),
+    (POINTS + "c = T[g.k]\nc.x = g.F", (*PLACES, "c.x")),
+    (POINTS + "T[g.k].move(g.F)", PLACES),
+    (POINTS + "c, d = T[g.k], T[2]\nd.x = g.F", (*PLACES, "c.x")),
+    (
+        "from types import SimpleNamespace as S\na, b = S(x=1.0), S(x=g.a)\n(a if g.F > 2 else b).x = 9.0",
+        ("a.x", "b.x"),
+    ),
+    # lists that nobody else knows are such as any others
+    ("c = [1.0, g.a] if g.F > 2 else [3.0, 4.0]\nc.append(5.0)\nc[0] = 9.0", ("sum(c)", "c[0]")),
+    ("if g.F > 2:\n    c = [1.0, g.a]\nelse:\n    c = [3.0, 4.0]\nc += [g.F]\nc[0] = c[1]", ("sum(c)", "c[0]")),
+    (
+        "h = []\nfor k in range(3):\n    r = [k * 1.0]\n    if k > g.F:\n        r = [g.a]\n"
+        "    r.append(g.F)\n    h.append(r)",
+        ("sum(h[2])",),
+    ),
+]
+TOLD = [
+    *((TABLE + f"c = T[g.k]\n{change}", (*SUMS, "sum(c)")) for change in (
+        "c.append(5.0)", "c.extend([5.0])", "c += [5.0]", "c *= 2", "c.pop()", "del c[0]", "c[:] = [9.0]", "c.clear()",
+        "c.insert(0, 5.0)", "c.remove(c[0])", "T[2].append(5.0)", "d = T[2]\nd[0] = 5.0",
+    )),
+    *((TABLE + f"c = T[g.k]\n{change}", (*ROWS, "c[0]")) for change in ("c.sort(reverse=True)", "c.reverse()")),
+    (TABLE + "T[g.k].append(5.0)", SUMS),
+    (TABLE + "c = sorted(T, key=lambda row: abs(row[0] - g.F))[0]\nc[0] = 50.0", ROWS),
+    (TABLE + "import heapq\nc = T[g.k]\nheapq.heappush(c, 0.5)", (*SUMS, "sum(c)")),
+    (TABLE + "def f():\n    c = T[g.k]\n    T[2][0] = g.F\n    return c[0]\nd = f()", (*ROWS, "d")),
+    (TWO + "c.append(9.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    (TWO + "d = {'it': c}\nd['it'].append(9.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    (TWO + "a.append(9.0)", ("sum(b)", "sum(c)")),
+    (TWO + "b[0] = 9.0", ("a[0]", "c[0]")),
+    ("a, b = [1.0], [2.0, 3.0]\nc = a if g.F > 2 else b\nc.append(5.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    ("a, b = {1.0}, {2.0}\nc = a if g.F > 2 else b\nc.add(5.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    ("a, b = np.ones(2), np.ones(3)\nc = a if g.F > 2 else b\nc[0] = 5.0", ("sum(a)", "sum(b)")),
+    ("a, b = [1.0], [2.0, 3.0]\nc = [a, b, b][g.k]\nc.append(5.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    ("a, b = {'x': [1.0]}, {'x': [g.a]}\nc = a if g.F > 2 else b\nc['x'].append(5.0)", ("sum(a['x'])", "sum(b['x'])")),
+    ("a, b = {'x': 1.0}, {'x': g.a}\nc = a if g.F > 2 else b\nc['y'] = 5.0", ("len(a)", "len(b)", "c['y']")),
+    (SPACE + "a, b = S(x=[1.0]), S(x=[g.a])\nc = a if g.F > 2 else b\nc.x.append(5.0)", ("sum(a.x)", "sum(b.x)")),
+]  # fmt: skip
+
+
+def each_alone(cases: list[tuple[str, tuple[str, ...]]]) -> list[tuple[str, str]]:
+    return [(lines, shown) for lines, each in cases for shown in each]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *TOLD]))
+def test_what_is_not_changed_now_changes_for_other_inputs(lines: str, shown: str, tmp_path: Path) -> None:
+    """It stood with the document's number for all inputs where only another one was changed: not even told."""
+    assert_never_stale(f"{lines}\ny = {shown} * 1.0", tmp_path)
+
+
+@pytest.mark.parametrize(("lines", "shown"), each_alone(FOLLOWED))
+def test_parts_that_are_set_follow(lines: str, shown: str, tmp_path: Path) -> None:
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d({shown}) + g.F  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    assert_followed(sheet, recording, ELSEWHERE)
+
+
+UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.F]]))"
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        f"held = [1.0]\ndef f(x, k={UNFOLLOWED}):\n    held.append(x)\n    return k * x\ny = f(g.a)",
+        "from functools import partial\nheld = [1.0]\ndef f(k, x):\n    held.append(x)\n    return k * x\n"
+        f"h = partial(f, {UNFOLLOWED})\ny = h(g.a)",
+        f"{SPACE}held = S(v={UNFOLLOWED}, w=1.0)\nheld.w += g.a\ny = held.w",
+        f"{SPACE}held = S(v={UNFOLLOWED}, w=[1.0])\nheld.w.append(g.a)\ny = sum(held.w)",
+        f"class Kept:\n    pass\nheld = Kept()\nheld.v, held.w = {UNFOLLOWED}, 1.0\nheld.w += g.a\ny = held.w",
+    ],
+)
+def test_to_record_changes_nothing_of_the_worksheet(lines: str, tmp_path: Path) -> None:
+    """What is not followed is taken from the worksheet's own run; to change that was to put a quantity into it."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1.0  # [-] line")
+    names = sheet.run(["held", "result"], {"g": sheet.inputs()})
+    before = written_out(names["held"])
+    record({**names, "__file__": sheet.path})
+    assert written_out(names["held"]) == before
+
+
+def written_out(value: Any) -> str:
+    return repr(getattr(value, "__dict__", value))
