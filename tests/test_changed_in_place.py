@@ -67,6 +67,8 @@ TOLD = [
     (TWO + "a.append(9.0)", ("sum(b)", "sum(c)")),
     (TWO + "b[0] = 9.0", ("a[0]", "c[0]")),
     ("a, b = [1.0], [2.0, 3.0]\nc = a if g.F > 2 else b\nc.append(5.0)", ("sum(a)", "sum(b)", "sum(c)")),
+    ("a, L = [1.0], {2: [2.0]}\nc = a if g.F > 2 else L[2 if g.F < 2 else 9]\nc.append(5.0)", ("sum(a)", "sum(L[2])")),
+    ("a, b = [1.0], [2.0, 3.0]\nk = [a, a, a][g.k]\nc = [a, b, a][g.k - 2]\nc.append(5.0)", ("sum(a)", "sum(b)")),
     ("a, b = {1.0}, {2.0}\nc = a if g.F > 2 else b\nc.add(5.0)", ("sum(a)", "sum(b)", "sum(c)")),
     ("a, b = np.ones(2), np.ones(3)\nc = a if g.F > 2 else b\nc[0] = 5.0", ("sum(a)", "sum(b)")),
     ("a, b = [1.0], [2.0, 3.0]\nc = [a, b, b][g.k]\nc.append(5.0)", ("sum(a)", "sum(b)", "sum(c)")),

@@ -14,7 +14,7 @@ class Meant:
         self.made: list[Any] = []  # `OneOfLists` of the present statement
         self.before: list[weakref.ref[Any]] = []  # those of others, as far as somebody knows them
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
-        self.taken: dict[int, tuple[Any, tuple[Any, ...]]] = {}  # by its identity: what Python took, and out of what
+        self.taken: dict[int, tuple[Any, dict[int, Any]]] = {}  # what Python took and out of what, by identities
         self.memories: Any = weakref.WeakSet()  # which hold what they compare
 
     def lists(self) -> Iterator[Any]:

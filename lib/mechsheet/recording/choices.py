@@ -101,7 +101,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
         graph.looked = looked
         if value is not None or other is not None:
             bool(condition)
-            taken(value, other)
+            taken(value, *(before.values() if other is UNBOUND else [other]))
         return value
     return both
 

@@ -85,6 +85,10 @@ class Memory:
                 known = weakref.ref(value) if isinstance(value, np.ndarray) else value  # which may have one name alone
                 self.held[id(value)] = known, parts
 
+    def values(self) -> list[Any]:
+        """What is held, but for arrays."""
+        return [value for value, _ in self.held.values() if not isinstance(value, weakref.ref)]
+
     def holding(self) -> Iterator[int]:
         """Identities of what is held here, each as often as it is."""
         for value, parts in self.held.values():
@@ -111,7 +115,7 @@ class Memory:
     def others(self, changed: set[int]) -> set[int]:
         """Identities of what would have changed for other inputs instead of what Python has looked for."""
         known = current.get().meant.taken
-        return Memory([known[key][1] for key in changed & known.keys()], self._own).mutable()
+        return Memory([[*known[key][1].values()] for key in changed & known.keys()], self._own).mutable()
 
     @staticmethod
     def named(names: Mapping[str, Any], objects: set[int]) -> set[str]:
@@ -156,7 +160,7 @@ def taken(value: Any, *ways: Any) -> Any:
         known = current.get().meant.taken
         for key, (each, _) in Memory([value], {}).held.items():
             if not _is_fixed(each) and not isinstance(each, weakref.ref):
-                known.setdefault(key, (each, ways))
+                known.setdefault(key, (each, {}))[1].update((id(way), way) for way in ways)
     return value
 
 
@@ -194,7 +198,7 @@ def _reached(
         yield value, hidden, parts
         waiting += _to_look_at(parts or (), hidden)
         if id(value) in others:
-            waiting += _to_look_at(others[id(value)][1], hidden)
+            waiting += _to_look_at(others[id(value)][1].values(), hidden)
         waiting += _to_look_at(_hidden(value), hidden=True)
 
 
