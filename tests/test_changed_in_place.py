@@ -77,27 +77,40 @@ TOLD = [
     (SPACE + "a, b = S(x=[1.0]), S(x=[g.a])\nc = a if g.F > 2 else b\nc.x.append(5.0)", ("sum(a.x)", "sum(b.x)")),
 ]  # fmt: skip
 
+UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.a]]))"
+KEPT = [  # what is taken of a statement that is not followed may have another name, by which it is changed
+    (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nT[0][0] = g.F", ("c[0]",)),
+    (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nd = T[0]\nd.append(g.F)", ("sum(c)",)),
+    (TABLE + f"c = {{'a': T[0], 'b': {UNFOLLOWED}}}\nT[0][0] = g.F", ("c['a'][0]",)),
+    (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nif g.F > 3:\n    T[0][0] = 5.0", ("c[0]",)),
+    (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nc[0] = g.F", ("T[0][0]",)),
+    (SPACE + f"a = S(x=1.0)\nc = [a, {UNFOLLOWED}][0]\na.x = g.F", ("c.x",)),
+    (TABLE + "c, d = T[g.k], min(T, key=lambda row: 1)\nd.append(0.0)\nc[0], c[1] = 1.0, 0.0", ("sum(d)",)),
+]
+AS_FLOAT = [  # of a whole number is none: an array takes others
+    ("f = float(g.n)\nb = np.array([f, f])\nb[0] = 4 * g.a", ("b[0]",)),
+    ("f = float(round(g.F))\nb = np.array([f, f])\nb[0] = 4 * g.a", ("b[0] + b[1]",)),
+    ("b = np.array([float(q > g.F) for q in (1.0, 3.0)])\nb[0] = 4 * g.a", ("b[0]",)),
+]
+
 
 def each_alone(cases: list[tuple[str, tuple[str, ...]]]) -> list[tuple[str, str]]:
     return [(lines, shown) for lines, each in cases for shown in each]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *TOLD]))
+@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *TOLD, *KEPT, *AS_FLOAT]))
 def test_what_is_not_changed_now_changes_for_other_inputs(lines: str, shown: str, tmp_path: Path) -> None:
     """It stood with the document's number for all inputs where only another one was changed: not even told."""
     assert_never_stale(f"{lines}\ny = {shown} * 1.0", tmp_path)
 
 
-@pytest.mark.parametrize(("lines", "shown"), each_alone(FOLLOWED))
+@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *AS_FLOAT]))
 def test_parts_that_are_set_follow(lines: str, shown: str, tmp_path: Path) -> None:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d({shown}) + g.F  # [-] line")
     _, recording = recorded(sheet)
     assert not recording.gaps
     assert_followed(sheet, recording, ELSEWHERE)
-
-
-UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.F]]))"
 
 
 @pytest.mark.parametrize(

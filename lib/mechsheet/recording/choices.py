@@ -11,6 +11,7 @@ import numpy as np
 from mechsheet.quantities import perhaps
 from mechsheet.quantities.arithmetic import choice as where
 from mechsheet.quantities.arithmetic import elementwise, none_like, trunc, whole
+from mechsheet.quantities.arithmetic import is_whole as whole_number
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.of_lists import OneOfLists
 from mechsheet.quantities.operations import regrouped
@@ -380,6 +381,11 @@ def _number(kind: type, followed: Callable[..., Any]) -> Callable[..., Any]:
     return made
 
 
+def _as_float(x: Quantity) -> Any:
+    """What arrays take for no whole number, and a text shows with decimals."""
+    return x.astype(float) if x.dtype == bool or whole_number(x) else x
+
+
 def length(x: Any) -> Any:
     """``len`` of anything; of a quantity over rows, and of a table of them, it is one."""
     if isinstance(x, Sifted) and x.pairs:
@@ -395,7 +401,7 @@ CALLS: dict[str, Any] = {
     "len": length,
     "unbound": UNBOUND, "text": text, "join": joined_kept,
     "round": exactly.rounded,
-    "float": _number(float, lambda x: x), "int": _number(int, lambda x: whole(trunc(x))),
+    "float": _number(float, _as_float), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
     "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else exactly.powered(*x),
 }  # fmt: skip

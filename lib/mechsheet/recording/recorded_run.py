@@ -2,7 +2,7 @@
 
 import ast
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from functools import partial
 from itertools import chain
 from types import CodeType
@@ -61,6 +61,7 @@ class Run(Guarded, OfPositions):
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
+        self.aliases: list[tuple[set[str], Memory, NotRecorded]] = []  # names kept that may hold what others change
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.want, self.lines, self.unnamed = want, lines, unnamed
         self.rebound: Sequence[Formula] = ()  # lines of the present cell whose names others bind anew
@@ -196,6 +197,7 @@ class Run(Guarded, OfPositions):
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
         may_change = any(map(changes, codes))
+        unseen = (under | {*touched}) & self.lost.keys() - self.names.keys() if may_change else set[str]()
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         others = Memory.sharing(self.names, arrays).difference(touched)
         handed = map(self.names.get, under) if sets_of_others(*codes) else ()
@@ -232,15 +234,21 @@ class Run(Guarded, OfPositions):
             self.keep(stage, touched, final - of_later, self.why(error, reads), rests_on)
             changed_now = before.changed() | graph.meant.disturbed() | (before.mutable() if may_change else set())
             beside = before.named(self.names, changed_now)
+            beside = beside.union(*(names for names, _ in self.aliasing(changed_now, unseen)))
             if not self.to_change.isdisjoint(touched):  # it may be another name of what it reads, and changes later
                 reached = Memory.sharing(self.names, map(self.names.get, under))
             beside = (beside | others | reached).difference(touched)
             self.lose(stage, beside | of_later, later | of_later, self.why(error, reads))
+            before.add(self.values([*touched, *beside]))  # what is kept is another object than what had several names
+            self.aliases.append(({*touched, *beside}, before, self.why(error, reads)))
             stage.finish(lambda x: x)
             return
         ways = may_change and bool(graph.looked)  # of which others change more
         now = before.changed() | (before.mutable() if ways else set())
-        beside = before.named(self.names, now | before.others(now)).difference(touched)
+        now |= before.others(now)
+        beside = before.named(self.names, now).difference(touched)
+        for stale, reason in self.aliasing(now):
+            self.lose(stage, stale.difference(touched), later, reason)
         beside |= reached if graph.looked else set()
         known = {k: seen for k, seen in graph.looked.items() if not seen.lengths and (graph.refuses or not seen.why)}
         noted = {} if touched or beside else known
@@ -358,6 +366,12 @@ class Run(Guarded, OfPositions):
                 self.lost[name] = reason
                 if self.to_change - {name}:  # which may be other names of it
                     self.looked[name] = self.while_are(self.recording.inputs.values())
+
+    def aliasing(self, changed: set[int], unseen: Set[str] = frozenset()) -> Iterator[tuple[set[str], NotRecorded]]:
+        """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
+        for names, memory, reason in self.aliases if changed or unseen else ():
+            if not (memory.mutable().isdisjoint(changed) and names.isdisjoint(unseen)):
+                yield {name for name in names if Memory(self.values([name]), self.names).mutable()}, reason
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
