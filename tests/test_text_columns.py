@@ -49,6 +49,8 @@ fixed = [date(2026, 1, n) for n in (1, 2, 3)]
 table_2 = table("2", "Kinds", y, kinds, fixed)
 days = [date(2026, 1, 1) + timedelta(days=n * round(g.M / 1000)) for n in range(3)]
 table_3 = table("3", "Days", y, days)
+said = [f"{m / 1000:.3f} kN m" for m in x]
+table_4 = table("4", "Said", x, said)
 """
 OTHERS: list[dict[str, Any]] = [{"M": 3000.0}, {"M": 1800.0, "kind": "b", "big": False}]
 
@@ -57,20 +59,20 @@ OTHERS: list[dict[str, Any]] = [{"M": 3000.0}, {"M": 1800.0, "kind": "b", "big":
 def sheet(tmp_path: Path) -> Path:
     path = tmp_path / "texts.py"
     text = written(SETUP, GIVEN, LINES, "Texts").replace("    return (form,)", "    form\n    return (form,)")
-    path.write_text(text.replace("    return x", "    typeset(table_1, table_2, table_3)\n    return x"))
+    path.write_text(text.replace("    return x", "    typeset(table_1, table_2, table_3, table_4)\n    return x"))
     return path
 
 
 def shown(path: Path, **given: Any) -> list[list[list[str]]]:
     """The rows of all tables for some inputs."""
     found = load(path)
-    names = found.run(["table_1", "table_2", "table_3"], {"g": inputs.build(found.inputs, given)})
-    return [[*map(list, zip(*(c.texts() for c in names[f"table_{n}"].columns), strict=True))] for n in (1, 2, 3)]
+    names = found.run([f"table_{n}" for n in (1, 2, 3, 4)], {"g": inputs.build(found.inputs, given)})
+    return [[*map(list, zip(*(c.texts() for c in names[f"table_{n}"].columns), strict=True))] for n in (1, 2, 3, 4)]
 
 
 def test_texts_are_columns(sheet: Path) -> None:
     """They were refused as no number, wherever they were not inputs."""
-    first, kinds, days = shown(sheet)
+    first, kinds, days, _ = shown(sheet)
     assert [row[1:] for row in first] == [
         ["yes", "low", "low", "IPE 100", "yes", "IPE 100"],
         ["yes", "mid", "mid", "IPE 100", "yes", "IPE 100"],
@@ -91,6 +93,9 @@ def test_cells_choose_the_texts_of_other_inputs(sheet: Path, tmp_path: Path, rec
             rows = live[title].iter_rows(min_row=5, max_row=4 + len(own), values_only=True)
             assert [list(row[1:]) for row in rows] == [row[1:] for row in own], (title, given)
         assert {row[1] for row in live["3 Days"].iter_rows(min_row=5, max_row=7, values_only=True)} == {"#N/A"}
+        said = [*live["4 Said"].iter_rows(min_row=5, max_row=8, values_only=True)]
+        assert [row[0] for row in said] == [float(row[0]) for row in shown(sheet, **given)[3]]
+        assert {row[1] for row in said} == {"#N/A"}  # which takes no number with it
 
 
 def test_a_page_chooses_the_texts_of_other_inputs(sheet: Path, tmp_path: Path, page: Page) -> None:
@@ -114,6 +119,8 @@ def test_a_page_chooses_the_texts_of_other_inputs(sheet: Path, tmp_path: Path, p
         own = shown(sheet, **given)
         assert [[row[1:] for row in rows] for rows in tables[:2]] == [[row[1:] for row in rows] for rows in own[:2]]
         assert {row[1] for row in tables[2]} == {""}
+        assert [row[0] for row in tables[3]] == [row[0] for row in own[3]]
+        assert {row[1] for row in tables[3]} == {""}
         assert "not known: Table 3" in page.locator(".ms-state").inner_text()
 
 

@@ -82,7 +82,7 @@ class Run(Guarded, OfPositions):
 
     def run(self, cell: Cell, draws: bool = True) -> None:
         """Run the statements of a cell, those that only draw where it ``draws``, and name what they give."""
-        stage = Stage(self.recording, self.namespace, cell)
+        stage = Stage(self.recording, self.namespace, cell, self.while_same)
         lines, before = list[ast.stmt](), set[str]()
         for line in of_cell(cell, self.sheet):
             lines += self.parts(line, before)

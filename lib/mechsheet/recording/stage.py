@@ -39,7 +39,12 @@ V = TypeVar("V", bound=Verdict)
 class Stage:
     """One cell while it is recorded: what it shows is noted, and compared with what the worksheet has."""
 
-    def __init__(self, recording: Recording, namespace: Mapping[str, Any], cell: Cell) -> None:
+    def __init__(
+        self, recording: Recording, namespace: Mapping[str, Any], cell: Cell,
+        while_same: Callable[[Quantity, Iterable[Guard]], Quantity],
+    ) -> None:  # fmt: skip
+        """``while_same`` gives a quantity that is none where Python would see something else."""
+        self.while_same = while_same
         self.graph, self.recording, self.namespace, self.cell = recording.graph, recording, namespace, cell
         self.solved: list[Solved] = []
         self.shown_now: list[tuple[dict[str, Any], str]] = []  # by the statement that is run
@@ -95,10 +100,11 @@ class Stage:
         """Note the columns of a table or a figure; where rows are of a fixed number, Python sees which it lists."""
         self.shown_now.append((self.recording.tables, number))
         whole = (c.parts if isinstance(c, EachRow) and c.pairs and c.every else c for c in columns)
-        columns = tuple(
-            as_column(self.graph, of_all if isinstance(of_all, Texts) else column)
+        each = [
+            self._column(of_all if isinstance(of_all, Texts) else column)
             for of_all, column in zip(whole, columns, strict=True)
-        )
+        ]
+        columns, rests = tuple(column for column, _ in each), [seen for _, seen in each]
         follows = self.graph.draws and isinstance(every, Quantity) and max(map(np.ndim, columns), default=0) == 1
         labels = {n: column for n, column in enumerate(columns) if isinstance(column, Texts)}
         given = [*(c.same if isinstance(c, Texts) else c for c in columns), *(label.at for label in labels.values())]
@@ -107,8 +113,19 @@ class Stage:
             at = arange(self.graph, 0, rows[0].count(0), every)
             rows = [column[at] for column in rows]
         for (n, label), at in zip(labels.items(), rows[len(columns) :], strict=True):
-            self.recording.labels[number, n] = label.name or label.texts, at
-        self.recording.tables[number] = tuple(map(copy, rows[: len(columns)]))  # which later lines may set elements of
+            self.recording.labels[number, n] = label.name or label.texts, self.while_same(at, rests[n])
+        shown = (
+            self.while_same(copy(row), seen) for row, seen in zip(rows, rests, strict=False)
+        )  # later lines may set
+        self.recording.tables[number] = tuple(shown)
+
+    def _column(self, column: Any) -> tuple[Any, list[Guard]]:
+        """A column as a table shows it, and what Python sees for it: the others do not rest on that."""
+        looked, self.graph.looked = self.graph.looked, {}
+        try:
+            return as_column(self.graph, column), [*self.graph.looked.values()]
+        finally:
+            self.graph.looked = looked
 
     def figure(
         self,
