@@ -89,6 +89,11 @@ class Memory:
         """What is held, but for arrays."""
         return [value for value, _ in self.held.values() if not isinstance(value, weakref.ref)]
 
+    def containers(self) -> set[int]:
+        """Identities of lists, dictionaries, sets and objects, but for parts of what the library has made."""
+        made = (part for value, parts in self.held.values() if _of_this(value) for part in parts or ())
+        return {key for key, (value, _) in self.held.items() if _holds(value)} - Memory(made, self._own).held.keys()
+
     def holding(self) -> Iterator[int]:
         """Identities of what is held here, each as often as it is."""
         for value, parts in self.held.values():
@@ -216,6 +221,12 @@ def _sets(code: CodeType) -> bool:
     """Whether code sets elements of what has no name there, or one that it does not bind: of others a call does."""
     inside = (constant for constant in code.co_consts if isinstance(constant, CodeType))
     return not _ELEMENTS.isdisjoint(operations(code)) or any(map(_sets, inside))
+
+
+def _holds(value: Any) -> bool:
+    return isinstance(value, list | dict | set | deque) or (
+        hasattr(value, "__dict__") and not (isinstance(value, type | FunctionType) or _of_this(value))
+    )
 
 
 def _is_fixed(value: Any) -> bool:

@@ -370,8 +370,8 @@ class Run(Guarded, OfPositions):
     def aliasing(self, changed: set[int], unseen: Set[str] = frozenset()) -> Iterator[tuple[set[str], NotRecorded]]:
         """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
         for names, memory, reason in self.aliases if changed or unseen else ():
-            if not (memory.mutable().isdisjoint(changed) and names.isdisjoint(unseen)):
-                yield {name for name in names if Memory(self.values([name]), self.names).mutable()}, reason
+            if not (memory.containers().isdisjoint(changed) and names.isdisjoint(unseen)):
+                yield {name for name in names if Memory(self.values([name]), self.names).containers()}, reason
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""

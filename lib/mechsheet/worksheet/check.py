@@ -362,10 +362,8 @@ def assembled(name: str, point: ArrayLike, over: ArrayLike, reaches: tuple[Any, 
     """
     measured(unit, f"check {name}")
     lost = _lost(f"check {name}", point, reaches, what)
-    count = np.count_nonzero(lost) if lost.size else np.nan
-    return _state(
-        Check(name, float(count), 0, "open positions", _open(lost, over, reaches, what, unit), essential=True)
-    )
+    count: Any = np.count_nonzero(lost) if lost.size else np.nan
+    return _state(Check(name, count, 0, "open positions", _open(lost, over, reaches, what, unit), essential=True))
 
 
 def require(point: ArrayLike, over: ArrayLike, reaches: tuple[Any, Any], what: str, unit: str) -> None:
