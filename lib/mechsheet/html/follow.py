@@ -296,7 +296,7 @@ class Follower:
     def _label(self, table: Table, n: int) -> Spec:
         """The input whose texts a column shows, or these, and the key of which ones it does."""
         name, rows = self.recording.labels.get((table.number, n), ("", None))
-        return {"label": [name, self.key(rows.re)]} if rows is not None else {}
+        return {"label": [wording.texts(name, self.key), self.key(rows.re)]} if rows is not None else {}
 
     def argument(self, name: str, own: Any = None) -> Any:
         """The key of a recorded argument of what is shown, or the run's own."""

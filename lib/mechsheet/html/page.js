@@ -125,7 +125,8 @@ function columnTexts(column, results) {
 // Texts of an input by their rows, or of several by their numbers; none where the number beside one is none.
 function labelsOf([name, key], values, results) {
   const rows = results.values[key], texts = Array.isArray(name) ? name : typedIn.get(name);
-  return rows && Array.from(rows, (k, n) => (values[n] === values[n] ? texts[k] : AXIS.none));
+  const read = node => results.values[node];
+  return rows && Array.from(rows, (k, n) => (values[n] === values[n] ? written(texts[k], read) : AXIS.none));
 }
 
 // The name of a check, of which nobody knows some pieces where it rests on what is not known.

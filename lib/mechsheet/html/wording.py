@@ -31,6 +31,11 @@ def piece(part: Piece, key: Key) -> Any:
     return part
 
 
+def texts(own: str | tuple[str | Written, ...], key: Key) -> Any:
+    """The name of an input, or texts: each as it stands or its pieces."""
+    return own if isinstance(own, str) else [each if isinstance(each, str) else written(each, key) for each in own]
+
+
 def written(text: Written, key: Key) -> list[Any]:
     return [piece(part, key) for part in text.parts]
 

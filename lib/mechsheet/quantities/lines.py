@@ -119,7 +119,7 @@ class Recording:
     lines: dict[str, list[Line]] = field(default_factory=dict)
     others: dict[str, list[Line]] = field(default_factory=dict)
     constants: set[tuple[str, int]] = field(default_factory=set)
-    labels: dict[tuple[str, int], tuple[str | tuple[str, ...], Quantity]] = field(default_factory=dict)
+    labels: dict[tuple[str, int], tuple[str | tuple[str | Written, ...], Quantity]] = field(default_factory=dict)
     arguments: dict[str, Node] = field(default_factory=dict)
     worded: dict[str, Node] = field(default_factory=dict)
     marks: dict[str, dict[str, Node]] = field(default_factory=dict)
@@ -164,13 +164,18 @@ class Recording:
         """The name of a check with the recorded numbers or texts in it; None of one without."""
         return self.said.get(f"check {check} name")
 
+    def texts_of_rows(self) -> Iterator[Written]:
+        """Texts with numbers in them that tables show in their rows."""
+        for texts, _ in self.labels.values():
+            yield from (text for text in texts if isinstance(text, Written))
+
     def shown(self) -> Iterator[Node]:
         """What the tables, figures, checks, found values and marks are made of."""
         columns = chain.from_iterable(self.tables.values())
         yield from chain.from_iterable(column.parts for column in columns if column is not None)
         for check in self.checks.values():
             yield from (*check.parts, check.limit)
-        yield from chain.from_iterable(text.nodes for text in self.said.values())
+        yield from chain.from_iterable(text.nodes for text in (*self.said.values(), *self.texts_of_rows()))
         for solved in self.found.values():
             yield from filter(None, (solved.node, solved.inverse, solved.residual))
         for marks in self.marks.values():

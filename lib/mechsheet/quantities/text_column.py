@@ -5,7 +5,7 @@ Those that numbers choose are known by which one of several each is.
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
-from operator import index, or_
+from operator import and_, index, or_
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from mechsheet.quantities.written import Either, OneOf, Written
 from mechsheet.worksheet.table import as_texts
 
 _MOST, _LONG = 250, 4000  # texts, and their signs, in the formula of a cell
+_SAID = 100  # rows of texts with numbers in them, each of which has a formula of its own
 Among = tuple[tuple[str, ...], Quantity]  # texts, and which one each is
 
 
@@ -25,13 +26,13 @@ class Texts:
     """Texts of the column of that ``name``, those of the rows ``at``: one is `Written`, at all of them Python looks.
 
     The ``column`` is 0 where a text is the exported one, else 1; there is none of texts that are no inputs, of which
-    those ``at`` numbers are chosen.
+    those ``at`` numbers are chosen. They may be `Written` themselves in a table.
     """
 
     ndim, base = 1, None
     __hash__ = None  # type: ignore[assignment]  # as of an array
 
-    def __init__(self, name: str, column: Quantity | None, texts: tuple[str, ...], at: Quantity) -> None:
+    def __init__(self, name: str, column: Quantity | None, texts: tuple[Any, ...], at: Quantity) -> None:
         self.name, self.column, self.texts, self.at = name, column, texts, at
 
     def __getitem__(self, key: Any) -> "Written | Texts":
@@ -159,6 +160,8 @@ def held_in(graph: Graph, values: NDArray[Any], many: bool) -> Any:
 
 def shown(graph: Graph, column: Any) -> Any:
     """What a table shows as a column, of texts these; of more than a cell can write Python sees which they are."""
+    if (said := _said(graph, column)) is not None:
+        return said
     if isinstance(column, Texts) and column.column is not None:
         return column
     found = None if isinstance(column, Quantity | str | Written) else among(graph, column)
@@ -168,6 +171,17 @@ def shown(graph: Graph, column: Any) -> Any:
     if found[1].re.op != "constant" and (len(found[0]) > _MOST or sum(map(len, found[0])) > _LONG):
         return shown(graph, Texts("", None, *found).seen())
     return Texts("", None, *found)
+
+
+def _said(graph: Graph, column: Any) -> Texts | None:
+    """Texts with numbers in them, one for each row, which is none where a number is none; of all else nothing."""
+    if not isinstance(column, list | tuple) or graph.thin > 1 or not 0 < len(column) <= _SAID:
+        return None
+    if not all(isinstance(each, str | Written) for each in column) or among(graph, column) is not None:
+        return None
+    known = [[np.isfinite(Quantity(graph, node)) for node in getattr(each, "nodes", ())] for each in column]
+    rows = (choice(graph, reduce(and_, holds), k, np.nan) if holds else k for k, holds in enumerate(known))
+    return Texts("", None, tuple(column), stack([lift(graph, row) for row in rows]))
 
 
 def _either(graph: Graph, holds: Quantity, x: Among | None, y: Among | None) -> Among | None:

@@ -146,17 +146,17 @@ class OfPositions(ABC):
 
         These are the worksheet's, where all positions make them.
         """
+        if self.graph.thin == 1:
+            return False
         recording, own = self.recording, dict(_words(namespace))
         now: dict[str, tuple[str | float, list[Node]]] = {}
         for key, text in recording.said.items():
             now[key] = text.now, [*text.nodes]
         for (number, n), (texts, at) in recording.labels.items():
             if not isinstance(texts, str):
-                now[f"table {number} {n}"] = "\n".join(texts[int(k)] for k in at.value.flat), [at.re]
+                now[f"table {number} {n}"] = "\n".join(str(texts[int(k)]) for k in at.value.flat), [at.re]
         for number, marks in recording.marks.items():
             now |= {f"figure {number} at {label}": (float(node.value), [node]) for label, node in marks.items()}
-        if self.graph.thin == 1 or not now:
-            return False
         if any(over for _, over in self.on_rows([node for _, nodes in now.values() for node in nodes])):
             return True
         return not all(_alike(said, own.get(key)) for key, (said, _) in now.items())

@@ -114,7 +114,9 @@ class Arrangement:
         for marks in self.recording.marks.values():
             yield from marks.values()
         yield from self.recording.worded.values()
-        yield from chain.from_iterable(text.nodes for text in self.recording.said.values())
+        yield from chain.from_iterable(
+            text.nodes for text in (*self.recording.said.values(), *self.recording.texts_of_rows())
+        )
         yield from self.recording.guards
         yield from (line.node for line in self.own_lines)
 

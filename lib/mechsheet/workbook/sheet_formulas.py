@@ -7,6 +7,7 @@ from mechsheet import units
 from mechsheet.quantities.lines import Line, leaves_of
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.written import Written
 from mechsheet.workbook.arrangement import Arrangement
 from mechsheet.workbook.cell_formula import CellFormulas, written
 from mechsheet.workbook.content import LARGEST, Content, Live, allowed, quoted
@@ -71,13 +72,23 @@ class SheetFormulas:
             return [self._cells.reference(node, factor)] * len(table.columns[n].values)
         return self._cells.references(node, factor)
 
-    def _labels(self, name: str | tuple[str, ...], rows: Quantity, same: Sequence[str]) -> list[str]:
+    def _said(self, text: str | Written, same: str) -> str:
+        """Formula of a text with numbers in it, while there is a number ``same``."""
+        if isinstance(text, str):
+            return f"=IF(ISNUMBER({same[1:]}),{quoted(text)},NA())"
+        said = text_formula(text, lambda node: self._cells.reference(node)[1:], self._typed)
+        return f"=IF(ISNUMBER({same[1:]}),{said},NA())"
+
+    def _labels(self, name: str | tuple[str | Written, ...], rows: Quantity, same: Sequence[str]) -> list[str]:
         """Formulas of texts of an input: what is typed in their rows, while there is a number ``same`` of each.
 
         Of several texts the number says which one stands there.
         """
         if not isinstance(name, str):
-            texts = ",".join(map(quoted, name))
+            known = [quoted(text) for text in name if isinstance(text, str)]
+            if len(known) < len(name):
+                return [self._said(name[int(k)], x) for k, x in zip(rows.value, same, strict=True)]
+            texts = ",".join(known)
             return [f"=IFERROR(CHOOSE({x[1:]}+1,{texts}),NA())" for x in same]
         place = self.arrangement.places[self.recording.inputs[name]]
         if _are_fixed(rows.re):
