@@ -11,7 +11,7 @@ from inspect import Signature, signature
 from math import ceil
 from typing import Protocol, TypeAlias
 
-from mechsheet.document import names
+from mechsheet.document import mapped, names
 from mechsheet.document.formula import (
     PRODUCT,
     SUM,
@@ -327,7 +327,8 @@ def _at(function: ast.expr, x: ast.expr) -> ast.expr | None:
 
 
 def _array(r: Reader, object: ast.expr) -> Node | None:
-    return r.read(object) if isinstance(object, ast.List | ast.Tuple | ast.ListComp) else None
+    listed = isinstance(mapped.written_out(object), ast.List | ast.Tuple | ast.ListComp | ast.GeneratorExp)
+    return r.read(object) if listed else None
 
 
 def _celsius(_: Reader, degrees: ast.expr) -> Node | None:
