@@ -174,3 +174,25 @@ def test_checks_of_a_limit_that_tells_nothing_and_of_what_is_infinite(blank: "Pa
     near, least = opened(blank, to, "F=0&x=1.5").locator(".ms-check").all()
     assert "its limit is more than a thousandth of what is compared" in near.inner_text()
     assert "\N{INFINITY} \u2265 2" in least.inner_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("made(g.F)", "what it shows is made by code that is not recorded"),
+        ("f'{g.F:.1f} of {sorted(str(g.F))}'", "for these inputs the worksheet's code goes another way"),
+    ],
+)
+def test_a_text_that_is_the_run_s_alone_says_why_and_so_does_the_bar(
+    text: str, why: str, blank: "Page", tmp_path: Path
+) -> None:
+    """The bar named all but texts, and a text that is not recorded had no reason."""
+    path, to = tmp_path / "said.py", tmp_path / "said.html"
+    lines = f'note = mo.md({text})\ntypeset(mo.md("## 1 Notes"), note)'
+    path.write_text(written(f"{SETUP}\n\ndef made(x):\n    return 'made %r' % x", "F: float = 2.5  # [-] F", lines))
+    to.write_text(write.page(cells.load(path), cells.load(path).inputs()), encoding="utf-8")
+    assert opened(blank, to).locator(".ms-grey").count() == 0
+    page = opened(blank, to, "F=3.5")
+    told = page.locator(".ms-grey").get_attribute("data-reason") or ""
+    assert told.endswith(f": {why}")
+    assert page.locator(".ms-state").inner_text() == f"changed: F; not known: a text of 1 Notes ({told})"

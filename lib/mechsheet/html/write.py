@@ -65,6 +65,7 @@ _CHOICES = (
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
 )
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
+_MADE = "what it shows is made by code that is not recorded"
 _MOST = 700_000  # bytes of a page; one that is larger has its lists at their own length
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
@@ -191,7 +192,7 @@ def _cell(
     """HTML of what a cell shows: texts of its own, and those ``among`` lines, which another cell may show."""
     follower.texts = (*(text for line in cell.lines for text in _as_written(line)), *among)
     follower.headings = frozenset(title for line in cell.lines for title in _headings(line))
-    follower.depends = bool(cell.needs)
+    follower.why = follower.recording.unsaid.get(n) or f"line {cell.lines[-1].lineno}: {_MADE}" if cell.needs else None
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
 
 
