@@ -135,6 +135,7 @@ def test_map_and_filter_are_what_they_do_for_each(source: str, as_written_out: s
     [
         ("np.linspace(0, 1, 5)", r"0,\,0.25\,\ldots\,1"),
         ("np.linspace(0, b, 5)", r"0,\,\frac{b}{4}\,\ldots\,b"),
+        ("np.linspace(0, pi / 2, 7)", r"0,\,\frac{\pi}{12}\,\ldots\,\frac{\pi}{2}"),
         ("np.linspace(a, b, 50, endpoint=False)",
          r"\operatorname{linspace}(a,\ b,\ 50,\ \text{endpoint} = \text{false})"),
         ("np.arange(0, 1, 0.1)", r"0,\,0.1\,\ldots\,0.9"),

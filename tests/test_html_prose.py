@@ -196,3 +196,12 @@ def test_a_text_that_is_the_run_s_alone_says_why_and_so_does_the_bar(
     told = page.locator(".ms-grey").get_attribute("data-reason") or ""
     assert told.endswith(f": {why}")
     assert page.locator(".ms-state").inner_text() == f"changed: F; not known: a text of 1 Notes ({told})"
+
+
+def test_a_unit_that_does_not_fit_is_told_at_the_top(blank: "Page", tmp_path: Path) -> None:
+    """The page in the browser, the run and the workbook told it: who was given the one file was not."""
+    for unit, told in (("m**2", []), ("N", ["mistake line 46, A: unit [N] does not fit; the value is in m²"])):
+        path, to = tmp_path / "fit.py", tmp_path / "fit.html"
+        path.write_text(written(SETUP, "b: float = 2.5  # [m] width", f"A = g.b**2  # [{unit}] area\ntypeset()"))
+        to.write_text(write.page(cells.load(path), cells.load(path).inputs()), encoding="utf-8")
+        assert opened(blank, to).locator(".ms-bar + p:has(.ms-FAIL)").all_inner_texts() == told
