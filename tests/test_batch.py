@@ -201,7 +201,7 @@ def test_summary_workbook(tmp_path):
     assert cells["L4"][2] == cells["L4"][3] == by_cells(HITCH, ["L4"])["L4"]
     assert cells["GS6 >= 30000 N"][2:] == (None, "FAIL", None)
     assert cells["verdict"][2:] == ("PASS", "FAIL", "FAIL")
-    assert cells["reason"][4] == "weight of the implement P6 = -1.0 N must be >= 0"
+    assert cells["reason"][4] == "weight of the implement P6 = -1.0 N must be >= 0 N"
     values = [line[1:] for line in book["GS6"].iter_rows(min_row=5, values_only=True)]
     assert [line[0] for line in values[:3]] == list(GS6[0]) and values[3][0] == "=#N/A"
     assert [line[1] for line in values] == list(GS6[1])

@@ -127,7 +127,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
         ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi} (M - T)\,\mathrm{d}\varphi"),
         ("np.ceil(h / b) * b", r"\left\lceil \frac{h}{b}\right\rceil \,b"),
-        ("dbeta(phi) + dx(phi)", r"\mathrm{d}\beta(\varphi) + \mathrm{d}x(\varphi)"),
+        ("dbeta(phi) + dx(phi)", r"d\beta(\varphi) + dx(\varphi)"),
         ("np.nanmin(SAB_k)", r"\min(S_{\mathrm{AB,k}})"),
         ("np.sum(S_g > 0, axis=1)", r"{\textstyle\sum }_{\text{axis 1}}(S_{\mathrm{g}} > 0)"),
         ("x.max(axis=0)", r"{\max}_{\text{axis 0}}(x)"),

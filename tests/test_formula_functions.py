@@ -14,6 +14,7 @@ from mechsheet.document.expression import tree
 from mechsheet.document.formula import Measure
 from mechsheet.document.functions import RULES
 from mechsheet.document.latex import latex
+from mechsheet.document.markup import as_written
 from mechsheet.html.mathml import mathml
 
 
@@ -99,11 +100,42 @@ def test_integrals_matrices_and_functions_of_scipy(source: str, tex: str) -> Non
     assert typeset(source) == tex
 
 
+def test_a_name_that_begins_with_d_is_no_differential() -> None:
+    """`da` may be a tip diameter: only the sign of an integral has an upright d."""
+    assert typeset("da * dx + dphi") == r"da\,dx + d\varphi"
+    assert mathml(tree(ast.parse("da", mode="eval").body)).count("normal") == 0
+    assert as_written("da") == "<i>d</i><i>a</i>" and as_written("dRa").startswith("Δ<i>R</i>")
+    assert typeset("quad(f, 0, da)[0]") == r"\int_{0}^{da} f(x)\,\mathrm{d}x"
+
+
+@pytest.mark.parametrize(
+    ("source", "as_written_out"),
+    [
+        ("list(map(f, D))", "[f(x) for x in D]"),
+        ("np.array(list(map(lambda q: q**2 * pi / 4, D)))", "[q**2 * pi / 4 for q in D]"),
+        ("array([*map(f, D)])", "[f(x) for x in D]"),
+        ("tuple(map(max, A, B))", "[max(x, t) for x, t in zip(A, B)]"),
+        ("sum(map(lambda q, r: q * r, A, B))", "sum(q * r for q, r in zip(A, B))"),
+        ("max(map(f, map(h, x)))", "max(f(t) for t in [h(t) for t in x])"),
+        ("sum(map(np.sqrt, D)) / len(list(D))", "sum(sqrt(x) for x in D) / len(D)"),
+        ("list(filter(lambda q: q > a, D))", "[q for q in D if q > a]"),
+        ("max(filter(lambda q: q < a, D))", "max(q for q in D if q < a)"),
+        ("next(filter(lambda q: q >= a, D), None)", "next((q for q in D if q >= a), None)"),
+        ("sorted(filter(None, D))", "sorted([x for x in D if x != 0])"),
+        ("list(filter(f, map(h, D)))", "[x for x in [h(x) for x in D] if f(x)]"),
+    ],
+)
+def test_map_and_filter_are_what_they_do_for_each(source: str, as_written_out: str) -> None:
+    assert typeset(source) == typeset(as_written_out)
+    assert not re.search("map|filter|list", typeset(source))
+
+
 @pytest.mark.parametrize(
     ("source", "tex"),
     [
         ("np.linspace(0, 1, 5)", r"0,\,0.25\,\ldots\,1"),
         ("np.linspace(0, b, 5)", r"0,\,\frac{b}{4}\,\ldots\,b"),
+        ("np.linspace(0, pi / 2, 7)", r"0,\,\frac{\pi}{12}\,\ldots\,\frac{\pi}{2}"),
         ("np.linspace(a, b, 50, endpoint=False)",
          r"\operatorname{linspace}(a,\ b,\ 50,\ \text{endpoint} = \text{false})"),
         ("np.arange(0, 1, 0.1)", r"0,\,0.1\,\ldots\,0.9"),

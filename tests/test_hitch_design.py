@@ -244,7 +244,7 @@ def test_search_goes_through_the_formulas_of_the_hitch(tmp_path):
             "no design within the bounds: height of the suspension axis: best reachable 1.* m, required",
         ),
         ({"L3_min": 1, "L3_max": 1.1}, "no design within the bounds has a value: no position closes for cylinder S"),
-        ({"L3_min": 0.3}, "L3_min = 0.3 m must be <= L3_max = 0.22"),
+        ({"L3_min": 0.3}, "L3_min = 0.3 m must be <= L3_max = 0.22 m"),
     ],
 )
 def test_what_cannot_be_designed_is_said(given, message):

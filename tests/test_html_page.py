@@ -248,7 +248,7 @@ def test_a_wrong_input_is_told_at_its_field_and_nothing_is_shown_for_it(
         ("P6", "heavy", "weight of the implement P6 = 'heavy' N is no number"),
         ("L5", "-1", "lower link, to the lifting rod L5 = −1 m must be positive"),
         ("N_pol", "2.5", "number of positions N_pol = 2.5 must be a whole number"),
-        ("S_min", "0.7", "least length of the cylinder S_min = 0.7 m must be < S_max = 0.67"),
+        ("S_min", "0.7", "least length of the cylinder S_min = 0.7 m must be < S_max = 0.67 m"),
         ("P6", "3 m", "P6 = '3 m': m is not known here: N, "),
         ("P6", "30 000", "P6 = '30 000' N is no number"),
         ("P6", "30.000,5", "P6 = '30.000,5' N is no number"),

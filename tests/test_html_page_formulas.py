@@ -11,15 +11,18 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from own_worksheet import own
 
 from mechsheet.document.expression import reads, substituted, tree
 from mechsheet.document.formula import Measure, Node, Power, Row, Symbol, Text
-from mechsheet.html import font, javascript, markdown, mathml
+from mechsheet.html import font, javascript, markdown, mathml, write
 from mechsheet.html.put_in import Read, put_in
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lines import Formula
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from playwright.sync_api import Page
 
 EXPRESSIONS = {
@@ -152,23 +155,23 @@ def test_numbers_are_put_into_a_formula_as_python_puts_them_in(blank: Page) -> N
             behind = [numbers.behind(UNITS[n], mathml.NUMBER) for n in names]
             asked = [{"factor": 1, "behind": text} for text in behind]
             given.append([{"text": told.text, "signs": told.signs, "numbers": asked}, parts])
-            expected.append(mathml.mathml(node).replace(">", "><mo>=</mo>", 1))
+            expected.append(f'<math displaystyle="true"><mo>=</mo>{mathml.inner(node)}</math>')
     found = blank.evaluate(
         f"all => {{{javascript.runtime('format.js', 'put_in.js')}\nreturn all.map(each => withNumbers(...each))}}",
         given,
     )
-    for (spec, parts), own, text in zip(given, expected, found, strict=True):
-        assert as_seen(text) == as_seen(own), (spec, parts)
+    for (spec, parts), known, text in zip(given, expected, found, strict=True):
+        assert as_seen(text) == as_seen(known), (spec, parts)
 
 
 def as_seen(text: str) -> str:
-    """MathML without what only groups, how high brackets are and how wide a space is, and a dot that none needs.
+    """MathML without what only groups, where a line may end, how high brackets and how wide spaces are, needless dots.
 
     High brackets have none before them, and how high they are may hang on a number far from where they begin. A browser
     writes a blank that does not break by its name.
     """
     text = text.replace("&nbsp;", "\u00a0")
-    bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"", "", text)
+    bare = re.sub(r"</?mrow>|</?mspace[^>]*>| stretchy=\"false\"|</math><wbr/?><math[^>]*>| form=\"infix\"", "", text)
     return re.sub(r"<mo>⋅</mo>(<mo>\(</mo><mo[^>]*>−</mo>)", r"\1", bare)
 
 
@@ -179,6 +182,56 @@ def test_a_minus_of_a_number_stands_at_it_wherever_the_number_stands(blank: Page
     gaps = blank.evaluate("""() => [...document.querySelectorAll("mo")].filter(e => e.textContent === "−").map(e =>
       e.nextElementSibling.getBoundingClientRect().left - e.getBoundingClientRect().right)""")
     assert gaps == [0, 0]
+
+
+LONG = f"""b = 2.0 * g.a  # [-] other
+y = (g.F + g.a) * sin(b) ** 2 + sqrt(g.F**2 + g.a**2 + 2 * g.F * g.a * cos(b)) - (b + g.F) ** 3 / g.a - b  # [-] long
+z = ({" + ".join(f"g.F * cos({n} * b)" for n in range(2, 22))}) / (g.F + g.a)  # [-] wide"""
+OVER = """lines => lines.map(line => {
+  const parts = [...line.querySelectorAll("math")].map(math => math.getBoundingClientRect());
+  const {right} = line.getBoundingClientRect(), lowest = Math.max(...parts.map(part => part.top));
+  return [parts.length, lowest > parts[0].bottom, Math.max(...parts.map(part => part.right - right))];
+})"""
+
+
+def test_a_long_formula_goes_on_in_the_next_line_and_what_cannot_is_smaller_on_paper(
+    blank: Page, tmp_path: Path
+) -> None:
+    """It ended at the edge of the screen, and of the paper."""
+    sheet = own(tmp_path, LONG)
+    (tmp_path / "own.html").write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
+    blank.set_viewport_size({"width": 500, "height": 800})
+    blank.goto((tmp_path / "own.html").as_uri())
+    blank.wait_for_selector("body[data-ready]")
+    for width in (400, 340):
+        blank.set_viewport_size({"width": width, "height": 800})
+        ((parts, goes_on, over),) = blank.eval_on_selector_all("#line-y", OVER)
+        assert parts == 5 and goes_on and over <= 0
+    shown = blank.locator("#line-z .ms-formula")
+    assert shown.evaluate("e => e.scrollWidth > e.clientWidth && e.getBoundingClientRect().right <= innerWidth")
+    blank.evaluate("""() => {
+      const ask = document.createElement("input");  // that of a title
+      document.body.append(Object.assign(ask, {className: "ms-switch", type: "checkbox", checked: true}));
+      ask.dispatchEvent(new Event("change", {bubbles: true}));
+    }""")
+    blank.wait_for_selector("#line-z .ms-numbers math")
+    ((parts, goes_on, over),) = blank.eval_on_selector_all("#line-y .ms-numbers", OVER)
+    assert parts == 4 and goes_on and over <= 0
+    blank.evaluate("dispatchEvent(new Event('beforeprint'))")
+    blank.emulate_media(media="print")
+    blank.set_viewport_size({"width": 8 * 687, "height": 800})  # as wide as what is printed of an A4, in fine steps
+    blank.evaluate("document.documentElement.style.zoom = 8")
+    assert [over for *_, over in blank.eval_on_selector_all(".ms-line", OVER) if over > 0] == []
+
+
+def test_terms_of_a_long_formula_stand_as_close_as_those_of_one(blank: Page) -> None:
+    """A sign that begins an element has no space of its own."""
+    node = tree(ast.parse("a" + " + b - c" * 10, mode="eval").body)
+    whole = f'<math displaystyle="true">{mathml.inner(node)}</math>'
+    blank.set_viewport_size({"width": 1200, "height": 400})
+    blank.set_content(f"<span>{whole}</span><br><span>{mathml.mathml(node)}</span>")
+    one, several = blank.eval_on_selector_all("body > span", "e => e.map(e => e.getBoundingClientRect().width)")
+    assert mathml.mathml(node).count("<math") == 21 and several == pytest.approx(one, abs=0.5)
 
 
 def test_equations_below_each_other_are_rows_of_a_table() -> None:

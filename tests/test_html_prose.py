@@ -174,3 +174,34 @@ def test_checks_of_a_limit_that_tells_nothing_and_of_what_is_infinite(blank: "Pa
     near, least = opened(blank, to, "F=0&x=1.5").locator(".ms-check").all()
     assert "its limit is more than a thousandth of what is compared" in near.inner_text()
     assert "\N{INFINITY} \u2265 2" in least.inner_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("made(g.F)", "what it shows is made by code that is not recorded"),
+        ("f'{g.F:.1f} of {sorted(str(g.F))}'", "for these inputs the worksheet's code goes another way"),
+    ],
+)
+def test_a_text_that_is_the_run_s_alone_says_why_and_so_does_the_bar(
+    text: str, why: str, blank: "Page", tmp_path: Path
+) -> None:
+    """The bar named all but texts, and a text that is not recorded had no reason."""
+    path, to = tmp_path / "said.py", tmp_path / "said.html"
+    lines = f'note = mo.md({text})\ntypeset(mo.md("## 1 Notes"), note)'
+    path.write_text(written(f"{SETUP}\n\ndef made(x):\n    return 'made %r' % x", "F: float = 2.5  # [-] F", lines))
+    to.write_text(write.page(cells.load(path), cells.load(path).inputs()), encoding="utf-8")
+    assert opened(blank, to).locator(".ms-grey").count() == 0
+    page = opened(blank, to, "F=3.5")
+    told = page.locator(".ms-grey").get_attribute("data-reason") or ""
+    assert told.endswith(f": {why}")
+    assert page.locator(".ms-state").inner_text() == f"changed: F; not known: a text of 1 Notes ({told})"
+
+
+def test_a_unit_that_does_not_fit_is_told_at_the_top(blank: "Page", tmp_path: Path) -> None:
+    """The page in the browser, the run and the workbook told it: who was given the one file was not."""
+    for unit, told in (("m**2", []), ("N", ["mistake line 46, A: unit [N] does not fit; the value is in m²"])):
+        path, to = tmp_path / "fit.py", tmp_path / "fit.html"
+        path.write_text(written(SETUP, "b: float = 2.5  # [m] width", f"A = g.b**2  # [{unit}] area\ntypeset()"))
+        to.write_text(write.page(cells.load(path), cells.load(path).inputs()), encoding="utf-8")
+        assert opened(blank, to).locator(".ms-bar + p:has(.ms-FAIL)").all_inner_texts() == told

@@ -59,13 +59,13 @@ def test_lines_declare_unit_meaning_section_and_limits(Arm):
     [
         ({"L5": "-0,48"}, "lower link L5 = -0.48 m must be positive"),
         ({"L5": "0"}, "lower link L5 = 0.0 m must be positive"),
-        ({"S_min": 0.9}, "least stroke S_min = 0.9 m must be < S_max = 0.67"),
+        ({"S_min": 0.9}, "least stroke S_min = 0.9 m must be < S_max = 0.67 m"),
         ({"N": 2.5}, "positions N = 2.5 must be a whole number"),
         ({"N": 1}, "positions N = 1 must be >= 2"),
         ({"L5": "0.4.8"}, "lower link L5 = '0.4.8' m is no number"),
         ({"L5": "nan"}, "lower link L5 = 'nan' m is no number"),
         ({"L5": "1e999"}, "lower link L5 = inf m must be a finite number"),
-        ({"L5": "1e-61"}, "lower link L5 = 1e-61 m must be at least 1e-60"),
+        ({"L5": "1e-61"}, "lower link L5 = 1e-61 m must be at least 1e-60 m"),
         ({"N": 10**70}, f"positions N = {int(1e70)}" + " must be at most 1e+60 in size"),
         ({"L5": "1 000"}, "lower link L5 = '1 000' m is no number"),
         ({"L5": ""}, "lower link L5 = '' m is no number"),
@@ -91,7 +91,7 @@ def test_replaced_inputs_are_checked_too(Arm):
 def test_inputs_of_which_the_declared_ones_break_a_limit_are_refused_until_they_are_replaced(order):
     """Whatever is built first: what is known of a class's own values is no reason to look away."""
     Arm = run(CELL.replace("S_max: float = 0.67", "S_max: float = 0.40"))["Arm"]
-    unmet = ", line 10: least stroke S_min = 0.42 m must be < S_max = 0.4"
+    unmet = ", line 10: least stroke S_min = 0.42 m must be < S_max = 0.4 m"
     for k in order:
         values, says = [({}, unmet), ({"L5": 0.5}, unmet), ({"S_max": 0.5}, ""), ({"S_min": 0.3}, "")][k]
         if not says:
@@ -236,14 +236,14 @@ def test_variants_are_numbers_in_si_with_a_reason_for_each_that_cannot_be_used(A
 def test_limits_between_inputs_hold_for_each_variant(Arm):
     given = inputs.variants(Arm, {"S_min": [[0.3], [0.5]], "S_max": [0.4, 0.6]})
     assert given.shape == (2, 2)
-    assert list(given.reasons) == ["", "", "least stroke S_min = 0.5 m must be < S_max = 0.4", ""]
+    assert list(given.reasons) == ["", "", "least stroke S_min = 0.5 m must be < S_max = 0.4 m", ""]
 
 
 def test_an_array_is_checked_in_the_display_unit(Arm):
     with pytest.raises(SheetError, match=r"lower link L5 = -0\.1 m must be positive"):
         replace(Arm(), L5=np.array([0.1, -0.1]))
     cell = CELL.replace("# [deg] angle", "# [deg] angle; < 90")
-    with pytest.raises(SheetError, match=r"angle phi = 100\.0\d* deg must be < 90"):
+    with pytest.raises(SheetError, match=r"angle phi = 100\.0\d* deg must be < 90 deg$"):
         replace(run(cell)["Arm"](), phi=np.deg2rad([80.0, 100.0]))
 
 
@@ -252,9 +252,9 @@ def test_an_array_is_checked_in_the_display_unit(Arm):
     [
         (
             "a: float = 20  # [deg] angle; > 0 <= 25",
-            "angle a = 1145.9155.* deg must be <= 25; 20 is taken in rad: write 20 ",
+            "angle a = 1145.9155.* deg must be <= 25 deg; 20 is taken in rad: write 20 ",
         ),
-        ("a: float = 30 * deg  # [deg] angle; > 0 <= 25", "angle a = 30.* deg must be <= 25$"),
+        ("a: float = 30 * deg  # [deg] angle; > 0 <= 25", "angle a = 30.* deg must be <= 25 deg$"),
         ("a: float = -2.0  # [m] arm; > 0", r"arm a = -2.0 m must be positive$"),
     ],
 )

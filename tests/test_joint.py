@@ -648,7 +648,7 @@ def test_elements_turned_by_a_right_angle_change_the_planes():
         ({"stringers": "25; 12.5; 1; 0; -1"}, "part of it, with its skin, that is pressed stringers.k_c (1) = -1.0"),
         ({"loads": "5e5; 13e3"}, "load cases loads (1) = '5e5; 13e3' must have the columns M, N, M_w"),
         ({"loads": [(1, 2, "x")]}, "moment of the third array loads.M_w (1) = 'x' kgf·cm is no number"),
-        ({"bolts": "0; 400"}, "angles of the bolts bolts (2) = 400.0 deg must be <= 360"),
+        ({"bolts": "0; 400"}, "angles of the bolts bolts (2) = 400.0 deg must be <= 360 deg"),
         ({"alpha": ""}, "angles of the planes of the load alpha must have 1 to 10000 rows, not 0"),
         ({"beams": "25; 12.5; 1; 1; 1", "stringers": "25; 12.5; 1; 0; 1"}, "equilibrium exists: plane 1, case 1: "),
         ({"bolts": "0"}, "ring in equilibrium exists: plane "),

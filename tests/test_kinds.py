@@ -251,7 +251,7 @@ def test_limits_stand_beside_a_unit_that_is_not_known() -> None:
     a, b = inputs.declared(cls)
     assert "unit [mms] is not known" in a.mistake and not b.mistake and cls().a == 0.2
     assert (a.limits, b.limits) == (((">", "0"),), ((">", "0"), ("<=", "200")))
-    with pytest.raises(SheetError, match=r"width b = 300\.0 mm must be <= 200"):
+    with pytest.raises(SheetError, match=r"width b = 300\.0 mm must be <= 200 mm$"):
         cls(b=0.3)
 
 

@@ -37,7 +37,20 @@ def test_a_name_begins_with_a_letter_of_any_alphabet(tmp_path, monkeypatch, caps
     monkeypatch.chdir(tmp_path)
     Path("page.css").write_text("/* mine */")
     assert launcher.new("Übung") == 0 and 'app_title="Übung"' in Path("Übung.py").read_text("utf-8")
-    for name in ("_lever", "1lever", "screw jack"):
+    for name, other in (
+        ("_lever", "lever"),
+        ("1lever", "lever"),
+        ("screw jack", "screw_jack"),
+        ("../some/lever-2.py", "lever_2"),
+        (r"C:\some\lever", "lever"),
+        ("lever/", "lever"),
+        ("9", "lever"),
+        ("", "lever"),
+    ):
         with pytest.raises(SystemExit):
             launcher.new(name)
-        assert "must be a letter, then letters, digits or _" in capsys.readouterr().err
+        told = f"must be a letter, then letters, digits or _: give {other}, which is written into {tmp_path}\n"
+        assert capsys.readouterr().err.endswith(told)
+    with pytest.raises(SystemExit):
+        launcher.new("numpy")
+    assert "'numpy' is one of Python's, as which it would be read: give numpy_1" in capsys.readouterr().err

@@ -180,7 +180,7 @@ def test_a_bad_cell_is_told_at_its_place_and_nothing_is_lost(serve, page, sectio
 
     for typed, text in {
         "x": "level stringers.y (2) = 'x' cm is no number",
-        "31": "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0",
+        "31": "level stringers.y (2) = 31.0 cm must be < stringers.y_top = 30.0 cm",
         "2 kN": "level stringers.y (2) = '2 kN': kN does not measure cm",
         "": "level stringers.y (2) = '' cm is no number",
     }.items():

@@ -83,7 +83,7 @@ def test_wanted_results_are_printed_with_their_units_and_nothing_else_is_compute
     ("argument", "message", "code"),
     [
         ("--L5=-0.48", "error: lower link, to the lifting rod L5 = -0.48 m must be positive", 1),
-        ("--S_min=0.7", "error: least length of the cylinder S_min = 0.7 m must be < S_max = 0.67", 1),
+        ("--S_min=0.7", "error: least length of the cylinder S_min = 0.7 m must be < S_max = 0.67 m", 1),
         ("--L55=1", "error: input L55 is unknown; nearest: L5, L56", 2),
         ("--P6=heavy", "error: weight of the implement P6 = 'heavy' N is no number", 2),
         ("--P6", "error: argument '--P6' must be --NAME=VALUE", 2),

@@ -299,7 +299,7 @@ def test_bad_input_is_one_line_and_writes_nothing(tmp_path):
     [
         ("L1", "0", "crank L1 = 0.0 m must be positive"),
         ("L3", "-1", "link 3 from its hinge B to the point C L3 = -1.0 m must be positive"),
-        ("L0", "-1", "crank's hinge O1 above the link's hinge B L0 = -1.0 m must be >= 0"),
+        ("L0", "-1", "crank's hinge O1 above the link's hinge B L0 = -1.0 m must be >= 0 m"),
         ("n", "1", "steps of a full turn n = 1 must be >= 2"),
         ("SAB_0", "0", "slider's distance from B along the link SAB_0 = 0.0 m must be positive"),
     ],

@@ -123,8 +123,8 @@ def test_values_in_display_units_and_as_a_frame():
 
 REFUSED = [
     ({"L5": -0.1}, "lower link, to the lifting rod L5 = -0.1 m must be positive"),
-    ({"phi_P6": 180}, "angle of the mast to the x axis at work phi_P6 = 180.0 deg must be < 180"),
-    ({"S_min": 0.9}, "least length of the cylinder S_min = 0.9 m must be < S_max = 0.67"),
+    ({"phi_P6": 180}, "angle of the mast to the x axis at work phi_P6 = 180.0 deg must be < 180 deg"),
+    ({"S_min": 0.9}, "least length of the cylinder S_min = 0.9 m must be < S_max = 0.67 m"),
     ({"P6": float("nan")}, "weight of the implement P6 = nan N must be a finite number"),
     ({"P6": 1e70}, "weight of the implement P6 = 1e+70 N must be at most 1e+60 in size"),
     ({"k_gc": 1.5}, "number of cylinders k_gc = 1.5 must be a whole number"),

@@ -47,7 +47,7 @@ def test_runs_and_writes_its_workbook(lever):
     assert printed > 1.4 * len(tables["A1"].value) and 2 * printed > 0.75 * len(tables["A2"].value)
     assert f"A2:{last.column_letter}2" in tables.merged_cells
     changed = as_script(lever, "--F=-5")
-    assert changed.returncode == 1 and "F = -5.0 N must be >= 0" in changed.stderr
+    assert changed.returncode == 1 and "F = -5.0 N must be >= 0 N" in changed.stderr
 
 
 def test_passes_the_checks_of_a_worksheet(lever):

@@ -375,7 +375,7 @@ def test_a_design_that_the_worksheet_refuses_is_told(tmp_path: Path) -> None:
 def test_commands_that_would_harm_are_refused() -> None:
     """A worksheet named as a module breaks all others beside it; a page without a password is everybody's."""
     for name in ("platform", "numpy", "marimo", "random", "class"):
-        assert refusal("new", name).endswith("is one of Python's: others there would take the file for it")
+        assert refusal("new", name).endswith(f"is one of Python's, as which it would be read: give {name}_1")
     told = "--host=0.0.0.0 shows the pages to whoever is on the network: give --password-file=FILE"
     assert told in refusal("serve", "guide", "--host=0.0.0.0") and told in refusal("serve", "--host", "0.0.0.0")
     for port in ("99999", "-1", "x"):

@@ -80,7 +80,7 @@ def test_all_ways_to_give_them_agree(shaft: Path, tmp_path: Path) -> None:
     [
         ({"n": 1500.5}, "speed n = 1500.5 rpm must be a whole number"),
         ({"L": "0.55 cm"}, "length L = 5.5 mm must be a whole number"),
-        ({"n": 3001}, "speed n = 3001 rpm must be <= 3000"),
+        ({"n": 3001}, "speed n = 3001 rpm must be <= 3000 rpm"),
     ],
 )
 def test_they_are_whole_and_within_limits_in_their_unit(shaft: Path, given: dict[str, Any], message: str) -> None:

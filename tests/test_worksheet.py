@@ -303,7 +303,7 @@ def test_intermediate_results_can_be_given():
         ("3.1", {}, "no check is named '3.1'"),
         ("table_31.real", {}, "table_31.real: table_31 is no number"),
         ("GS6", {"P66": 1}, "input P66 is unknown; nearest: P6"),
-        ("GS6", {"P6": -1}, "weight of the implement P6 = -1.0 N must be >= 0"),
+        ("GS6", {"P6": -1}, "weight of the implement P6 = -1.0 N must be >= 0 N"),
         ("GS6", {"Y_P56": 3}, "working stroke S_p: height Y56 of the suspension axis reaches"),
     ],
 )

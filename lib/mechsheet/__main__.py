@@ -262,15 +262,18 @@ def new(name: str, like: str = "") -> int:
     """Write a worksheet from the template or like another one, with what it needs: within a clone into worksheets/."""
     import shutil  # on use: to compute a worksheet is what nearly every call is for
 
+    ours, current = ROOT / "worksheets", Path.cwd()
+    folder = ours if ours.is_dir() and ROOT in (current, *current.parents) else current
     if not (name.isidentifier() and name[0].isalpha()):
-        raise refused(f"name of the worksheet = {name!r} must be a letter, then letters, digits or _")
+        words = re.findall(r"\w+", re.sub(r".*[/\\]|\.py$", "", name.rstrip("/\\")))  # without a folder
+        other = "_".join(words).lstrip("_0123456789") or "lever"
+        must = "must be a letter, then letters, digits or _"
+        raise refused(f"name of the worksheet = {name!r} {must}: give {other}, which is written into {folder}")
     import keyword  # on use: as above
 
     others = ["mechsheet", "marimo", "numpy", "scipy", "pandas", "altair", "openpyxl", "xlsxwriter", "mpmath", "flint"]
     if name in (*others, *getattr(sys, "stdlib_module_names", ())) or keyword.iskeyword(name):
-        raise refused(f"name of the worksheet = {name!r} is one of Python's: others there would take the file for it")
-    ours, current = ROOT / "worksheets", Path.cwd()
-    folder = ours if ours.is_dir() and ROOT in (current, *current.parents) else current
+        raise refused(f"name of the worksheet = {name!r} is one of Python's, as which it would be read: give {name}_1")
     path, here = folder / f"{name}.py", Path(__file__).resolve().parent
     if path.exists():
         raise refused(f"{path} is there already")

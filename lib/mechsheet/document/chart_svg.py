@@ -104,10 +104,10 @@ def _text(label: Label) -> str:
 @lru_cache(maxsize=1024)
 def _symbol(name: Symbol) -> str:
     """Inside of a ``<text>`` element: a symbol, its index lowered."""
-    base = f'<tspan font-style="italic">{name.base}</tspan>' if is_slanted(name.base) else name.base
+    mark, base = (f'<tspan font-style="italic">{x}</tspan>' if is_slanted(x) else x for x in (name.mark, name.base))
     # the last part, of no width, takes what follows back to the line
     index = f'<tspan dy="4" font-size="11">{name.index}</tspan><tspan dy="-4">\u200b</tspan>'
-    return name.mark + base + (index if name.index else "")
+    return mark + base + (index if name.index else "")
 
 
 def _values(chart: Chart) -> dict[str, Any]:

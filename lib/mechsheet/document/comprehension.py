@@ -3,7 +3,7 @@
 import ast
 from itertools import chain
 
-from mechsheet.document import names
+from mechsheet.document import mapped, names
 from mechsheet.document.formula import (
     PRODUCT,
     RELATION,
@@ -30,7 +30,7 @@ def over_each(reader: Reader, node: ast.Call) -> Node | None:
 
     None for any other call.
     """
-    match node:
+    match ast.Call(node.func, [*map(mapped.written_out, node.args)], node.keywords):
         case ast.Call(ast.Name("sum"), [ast.GeneratorExp() | ast.ListComp() as terms], []):
             return _sum(reader, terms, "∑")
         case ast.Call(ast.Name("prod"), [ast.GeneratorExp() | ast.ListComp() as terms], []):

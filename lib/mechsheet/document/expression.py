@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache, reduce
 from typing import Any
 
-from mechsheet.document import comprehension, functions, names, solved
+from mechsheet.document import comprehension, functions, mapped, names, solved
 from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
@@ -129,7 +129,7 @@ class _Reader:
         self.numbers, self.single = numbers, single
 
     def read(self, node: ast.expr) -> Node:
-        node = names.bare(node)
+        node = mapped.written_out(names.bare(node))
         kind = type(node)
         if self.numbers and kind in (ast.Name, ast.Attribute) and (number := self.numbers.get(_read_as(node))):
             return number

@@ -11,7 +11,7 @@ from inspect import Signature, signature
 from math import ceil
 from typing import Protocol, TypeAlias
 
-from mechsheet.document import names
+from mechsheet.document import mapped, names
 from mechsheet.document.formula import (
     PRODUCT,
     SUM,
@@ -244,11 +244,18 @@ def _linspace(r: Reader, start: ast.expr, stop: ast.expr, num: ast.expr | None =
             if ends[0] is not None and ends[1] is not None:
                 second: Node = Number(ends[0] + (ends[1] - ends[0]) / (count - 1))
             else:
-                part = ast.BinOp(stop if ends[0] == 0 else ast.BinOp(stop, ast.Sub(), start), ast.Div(),
-                                 ast.Constant(count - 1))  # fmt: skip
+                part = _divided(stop if ends[0] == 0 else ast.BinOp(stop, ast.Sub(), start), count - 1)
                 second = r.read(part if ends[0] == 0 else ast.BinOp(start, ast.Add(), part))
             return Range((r.read(start), second), r.read(stop))
     return Range((r.read(start),), r.read(stop))
+
+
+def _divided(whole: ast.expr, by: int) -> ast.expr:
+    """A part of something, of what is divided by a whole number itself as one fraction of that."""
+    match whole:
+        case ast.BinOp(of, ast.Div(), ast.Constant(int(already))):
+            return ast.BinOp(of, ast.Div(), ast.Constant(already * by))
+    return ast.BinOp(whole, ast.Div(), ast.Constant(by))
 
 
 def _integral(r: Reader, y: ast.expr, x: ast.expr) -> Node:
@@ -327,7 +334,8 @@ def _at(function: ast.expr, x: ast.expr) -> ast.expr | None:
 
 
 def _array(r: Reader, object: ast.expr) -> Node | None:
-    return r.read(object) if isinstance(object, ast.List | ast.Tuple | ast.ListComp) else None
+    listed = isinstance(mapped.written_out(object), ast.List | ast.Tuple | ast.ListComp | ast.GeneratorExp)
+    return r.read(object) if listed else None
 
 
 def _celsius(_: Reader, degrees: ast.expr) -> Node | None:

@@ -42,7 +42,7 @@ LATEX = Notation(
 _LETTERS = {letter: rf"\{word}" for word, letter in GREEK.items()}
 _LETTERS |= {"ε": r"\varepsilon", "φ": r"\varphi", "Ξ": r"\Xi", "Π": r"\Pi"}
 _GREEK = re.compile(f"([{LETTERS}])")
-_MARKS = {"": "{}", "Δ": r"\Delta {}", "d": r"\mathrm{{d}}{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
+_MARKS = {"": "{}", "Δ": r"\Delta {}", "d": "d{}", ".": r"\dot{{{}}}", "..": r"\ddot{{{}}}"}
 _NAMED = {
     **{name: rf"\{name}" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln", "max")},
     "min": r"\min",

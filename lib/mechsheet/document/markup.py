@@ -52,7 +52,7 @@ def as_written(name: str) -> str:
     """
     read = symbol.read(name)
     index = re.sub(f"[{symbol.LETTERS}]", lambda m: _letters(m[0]), read.index)
-    return read.mark + _letters(read.base) + (f"<sub>{index}</sub>" if index else "")
+    return _letters(read.mark) + _letters(read.base) + (f"<sub>{index}</sub>" if index else "")
 
 
 def _letters(text: str) -> str:

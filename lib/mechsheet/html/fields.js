@@ -41,9 +41,9 @@ function hold(field, x, shown, k) {
     const limit = Array.isArray(given) ? given[k] : given;
     const length = sign === ">" && other === 0;
     if (!COMPARE[sign](x, limit)) {
-      refuse(named, x, `must be ${length ? "positive" : `${sign} ${other}`}${typeof other === "number" ? "" : ` = ${limit}`}`);
+      refuse(named, x, `must be ${length ? "positive" : `${sign} ${other === limit ? "" : `${other} = `}${limit}${unitOf(field)}`}`);
     }
-    if (length && Math.abs(x) < told.inputs.least) refuse(named, x, `must be at least ${significant(told.inputs.least, 6)}`);
+    if (length && Math.abs(x) < told.inputs.least) refuse(named, x, `must be at least ${significant(told.inputs.least, 6)}${unitOf(field)}`);
   }
 }
 

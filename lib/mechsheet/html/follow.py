@@ -63,7 +63,7 @@ class Follower:
         self._slid: dict[Node, frozenset[str]] = {}
         self.texts: tuple[str, ...] = ()  # of the cell whose parts are written
         self.headings = frozenset[str]()  # of its texts with numbers those that have none
-        self.depends = False  # whether that cell reads what others compute
+        self.why: str | None = None  # why it holds for the run's inputs alone; None where it reads nothing of others
 
     def pair(self, shown: Mapping[int, Sequence[Any]]) -> None:
         """Find what is recorded of the drawings that the cells show, but for those that a slider makes others."""
@@ -113,7 +113,7 @@ class Follower:
         keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
         if not pieces:
             self._asked = []
-            return self.own(shown(now), now)
+            return self.own(shown(now), now, "its numbers stand in markup that other ones would change")
         return f"<span{self.mark('text', keys=keys, pieces=pieces, **guards)}>{shown(now)}</span>"
 
     def _guards(self, guards: Iterable[Guard]) -> Spec:
@@ -127,11 +127,11 @@ class Follower:
         plain = [n for n, x in held if not isinstance(x, Quantity) or x.dtype == bool or x.re.op == "constant"]
         return self._guards({g.holds: g for name in plain for g in self.recording.looked.get(name, ())}.values())
 
-    def own(self, shown: str, text: str = "") -> str:
+    def own(self, shown: str, text: str = "", why: str = "") -> str:
         """What is shown for the run's inputs alone, unless it is a ``text`` as it stands in its cell."""
         if self._stands(text):
             return shown
-        return f"<span{self.mark('own')}>{shown}</span>" if self.depends else shown
+        return shown if self.why is None else f"<span{self.mark('own', why=why or self.why)}>{shown}</span>"
 
     def _stands(self, text: str) -> bool:
         """Whether the cell has a text as it is."""

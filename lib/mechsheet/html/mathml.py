@@ -1,7 +1,7 @@
 """Formulas in MathML: a rule for each kind of node of the tree, with the signs that LaTeX gives the page."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
 from html import escape
 from typing import Any
@@ -57,13 +57,46 @@ _FORM = ' form="{}"'  # of a bar, which may begin or end
 _GREEK = re.compile(f"([{LETTERS}])")
 _UPRIGHT = re.compile("[A-ZΓΔΘΛΞΠΣΥΦΨΩ]")  # Greek capitals, and letters of an index
 _WORDS = ("mod", "and", "or")
+_BEGIN, _END = '<math displaystyle="true">', "</math>"
+_BREAK = f"{_END}<wbr/>{_BEGIN}"
+_TAG, _LONG = re.compile("<.*?>"), 25  # characters that have room in a line of a narrow screen
 _DOTS = {".": "˙", "..": "¨"}
 
 
-def mathml(node: Node, *, block: bool = True) -> str:
-    """A formula in MathML, with the space of a line of its own or of a text."""
-    display = ' displaystyle="true"' if block else ""
-    return f"<math{display}>{inner(node)}</math>"
+def mathml(node: Node) -> str:
+    """A formula in MathML, with the space of a line of its own; one that may go on in the next line in a span."""
+    text = f"{_BEGIN}{in_terms(node)}{_END}"
+    return f'<span class="ms-terms">{text}</span>' if _BREAK in text else text
+
+
+def in_terms(node: Node) -> str:
+    """What stands in the element of a formula; a long one ends it and begins another before each of its terms.
+
+    >>> from mechsheet.worksheet.symbol import read
+    >>> x = read("x")
+    >>> in_terms(Binary(x, "=", Binary(x, "+", x))).count("<wbr/>")
+    0
+    """
+    whole = inner(node)
+    return whole if len(_TAG.sub("", whole)) < _LONG else _BREAK.join(_terms(node))
+
+
+def _terms(node: Node) -> Iterator[str]:
+    """Parts of a formula between which a line may end: all but the first begin with their sign."""
+    match node:
+        case Binary(left, ("=" | "+" | "-" | "and" | "or") as sign, right):
+            yield from _terms(left)
+            first, *more = _terms(right)
+            yield f"<mrow>{_sign(sign, _FORM.format('infix'))}{first}</mrow>"
+            yield from more
+        case Row([first, *more]):
+            yield from _terms(first)
+            for item in more:
+                begun, *rest = _terms(item)
+                yield f"<mrow>{_QUAD}{begun}</mrow>"
+                yield from rest
+        case _:
+            yield inner(node)
 
 
 def inner(node: Node) -> str:
@@ -87,7 +120,7 @@ def symbol(s: Symbol) -> str:
     if s.index:
         parts = [_index(part) for part in _GREEK.split(s.index) if part]
         base = f"<msub>{base}{_row(parts)}</msub>"
-    return _row([_upright(s.mark), base]) if s.mark in ("Δ", "d") else base
+    return _row([_letters(s.mark), base]) if s.mark in ("Δ", "d") else base
 
 
 def _letters(text: str) -> str:
@@ -116,11 +149,11 @@ def _digits(text: str) -> str:
     return f"<mrow>{parts}</mrow>" if parts.count("<m") > 1 else parts
 
 
-def _sign(sign: str) -> str:
+def _sign(sign: str, form: str = "") -> str:
     if sign in _WORDS:
         return f"<mtext>\u2002{sign}\u2002</mtext>"
     separator = ' separator="true"' if sign == "," else ""
-    return f"<mo{separator}>{escape(sign.replace('-', '−'))}</mo>"
+    return f"<mo{form}{separator}>{escape(sign.replace('-', '−'))}</mo>"
 
 
 def _function(node: Function) -> str:

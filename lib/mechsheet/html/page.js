@@ -224,7 +224,7 @@ const computed = () => evaluate({...state.si, ...slid()});
 
 function gapOf(spec, results) {
   const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
-  return keys.map(key => results.gaps[key]).find(Boolean);
+  return keys.map(key => results.gaps[key]).find(Boolean) ?? spec.why;
 }
 
 // What stands there already is left alone: laying it out again takes longer than computing it.
@@ -316,7 +316,8 @@ const numberless = results => new Set(told.shown.flatMap((spec, n) => {
 }));
 let ofOwn;
 
-const nameOf = (spec, element) => spec.of ?? (spec.title && element.querySelector(".ms-name")?.textContent) ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent;
+const nameOf = (spec, element) => spec.of ?? (spec.title && element.querySelector(".ms-name")?.textContent) ?? spec.name ?? spec.key ?? element.closest(".ms-table, .ms-figure")?.querySelector(".ms-caption b").textContent ?? textIn(element);
+const textIn = element => `a text${sectionOf(element) && ` of ${sectionOf(element)}`}`;
 const listed = names => names.slice(0, LISTED).join(", ") + (names.length > LISTED ? ` and ${names.length - LISTED} more` : "");
 
 function say(changed, errors) {

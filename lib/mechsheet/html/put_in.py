@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, get_args
 
 from mechsheet.document.expression import substituted
 from mechsheet.document.formula import Apply, Binary, Brackets, Measure, Node, Prefix, Product, Text
-from mechsheet.html.mathml import inner
+from mechsheet.html.mathml import in_terms
 from mechsheet.worksheet.lines import Formula
 
 # A number of each kind: with the usual digits or as a power of ten, negative, none. The page tells them alike.
@@ -51,7 +51,7 @@ def put_in(line: Formula, read: Mapping[str, Read]) -> PutIn | None:
         and (other := _tree(line, read, ["plain"] * n + [kind] + ["plain"] * (len(read) - n - 1))) is not None
     ]
     merged = _Merged()
-    return PutIn(inner(merged.node(plain, others)), merged.signs)
+    return PutIn(in_terms(merged.node(plain, others)), merged.signs)
 
 
 class _Other(NamedTuple):

@@ -40,4 +40,19 @@ const watcher = new IntersectionObserver(entries => {
   }
 }, {rootMargin: "30%"});
 shownBy.forEach(element => watcher.observe(element));
-addEventListener("beforeprint", settleAll);
+
+// A formula of which a part is wider than the paper is smaller there.
+const PAPER = 48; // em of the letters on it
+function fitToPaper() {
+  for (const line of document.querySelectorAll(".ms-line")) {
+    const room = PAPER * parseFloat(getComputedStyle(line).fontSize);
+    for (const part of line.querySelectorAll(":scope > :is(.ms-formula, .ms-numbers)")) {
+      const widths = [...part.querySelectorAll("math")].map(math => math.getBoundingClientRect().width);
+      part.style.setProperty("--fit", Math.min(1, room / Math.max(...widths)));
+    }
+  }
+}
+addEventListener("beforeprint", () => {
+  settleAll();
+  fitToPaper();
+});

@@ -23,8 +23,9 @@ from mechsheet.html import fields, font, frames, javascript, values
 from mechsheet.html.follow import Follower
 from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
+from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.memory import names_of
-from mechsheet.recording.record import continued, record
+from mechsheet.recording.record import continued, record, record_every_line
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.check import LITTLE, Check, Summary, checks_of, refuse_open
@@ -65,6 +66,7 @@ _CHOICES = (
     *(ast.If, ast.For, ast.While, ast.Match, ast.Try, ast.FunctionDef, ast.Lambda),
 )
 _STUDIES = ("mechsheet.accuracy.", "mechsheet.studies.")
+_MADE = "what it shows is made by code that is not recorded"
 _MOST = 700_000  # bytes of a page; one that is larger has its lists at their own length
 # The page asks for nothing: what it shows and runs stands in it.
 _POLICY = (
@@ -85,17 +87,21 @@ def page(sheet: Worksheet, g: Any) -> str:
     namespace = sheet.run(sheet.results, beforehand(g))
     refuse_open(checks_of(namespace))
     parts.values(namespace)  # which tells of what goes by one name
+    fit = dimensions(record_every_line(namespace, sheet), sheet, namespace, registry(namespace)).check()
     if any(isinstance(field, Rows) for field in declared(type(inputs_of(namespace)))):
         with suppress(SheetError):  # how many values are found is not known before the list is
-            text = _page(sheet, namespace, lists=True)
+            text = _page(sheet, namespace, fit, lists=True)
             if len(text.encode()) < _MOST:
                 return text
-    return _page(sheet, namespace, lists=False)
+    return _page(sheet, namespace, fit, lists=False)
 
 
 @np.errstate(all="ignore")  # of ways that the worksheet does not go, as while it is recorded
-def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
-    """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
+def _page(sheet: Worksheet, namespace: dict[str, Any], fit: Check, lists: bool) -> str:
+    """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own.
+
+    Whether the units ``fit`` is told at the top where they do not.
+    """
     cells = _with_checks(_with_fields(by_cell(namespace), sheet, inputs_of(namespace)))
     shown = [part for each in cells.values() for part in each]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
@@ -111,6 +117,9 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
+    if fit.residual:
+        wrong = f'<p><span class="ms-badge ms-FAIL">mistake</span> {escape(fit.reason)}</p>'
+        body = body.replace(_BAR, _BAR + wrong, 1)
     told = {
         "name": Path(sheet.path).stem,
         "inputs": fields.told(inputs_of(namespace)),
@@ -191,7 +200,7 @@ def _cell(
     """HTML of what a cell shows: texts of its own, and those ``among`` lines, which another cell may show."""
     follower.texts = (*(text for line in cell.lines for text in _as_written(line)), *among)
     follower.headings = frozenset(title for line in cell.lines for title in _headings(line))
-    follower.depends = bool(cell.needs)
+    follower.why = follower.recording.unsaid.get(n) or f"line {cell.lines[-1].lineno}: {_MADE}" if cell.needs else None
     return "".join(_part((n, k), part, follower, moving) for k, part in enumerate(parts))
 
 

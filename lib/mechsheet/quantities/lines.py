@@ -106,7 +106,8 @@ class Recording:
     numbers that are ``lost`` there, or would be others; ``guards`` the conditions under which all is recorded as the
     worksheet has it; ``integrals`` what a rule of places gives, with scipy's estimates of the errors where these are
     taken; ``drawings`` those that a cell shows, by its number, or None for one that is not recorded; ``captions`` and
-    ``texts`` what captions, by their numbers, and cells say in texts that are others for other inputs; ``positions``
+    ``texts`` what captions, by their numbers, and cells say in texts that are others for other inputs, ``unsaid`` why
+    one of a cell is not recorded; ``positions``
     what is marked along charts, by the name of its quantity; ``values`` what the names are in the recording, ``looked``
     the guards that these rest on. Only every ``every``-th position is recorded.
     """
@@ -128,6 +129,7 @@ class Recording:
     said: dict[str, Written] = field(default_factory=dict)
     captions: dict[str, Said] = field(default_factory=dict)
     texts: dict[int, list[Said]] = field(default_factory=dict)
+    unsaid: dict[int, str] = field(default_factory=dict)
     gaps: list[Gap] = field(default_factory=list)
     unsolved: list[Gap] = field(default_factory=list)
     lost: dict[Node, bool] = field(default_factory=dict)

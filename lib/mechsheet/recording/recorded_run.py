@@ -41,6 +41,7 @@ from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.title import Mark, Slider
 
 _PLACES = {"argmax", "argmin", "argsort"}
+_MADE = "what it says is no text that is recorded"
 
 
 class Run(Guarded, OfPositions):
@@ -159,21 +160,23 @@ class Run(Guarded, OfPositions):
                 self.recording.positions[k] = self.while_same(lift(self.graph, x), guards).re
             sketches = (Drawn(each, guards) if isinstance(each, Sketch) else None for each in drawn)
             found += [None] * len(own) if own and len(own) != len(drawn) else sketches
-        for number, title in showing.captions(cell).items():
-            if told := self.told(stage, title):
-                self.recording.captions[number] = told
-        said = (self.told(stage, text) for text in showing.texts(cell))
-        self.recording.texts[self.sheet.cells.index(cell)] = [*filter(None, said)]
+        at = self.sheet.cells.index(cell)
+        captions = {number: self.told(stage, title) for number, title in showing.captions(cell).items()}
+        texts = [self.told(stage, text) for text in showing.texts(cell)]
+        self.recording.captions |= {number: told for number, told in captions.items() if isinstance(told, Said)}
+        self.recording.texts[at] = [told for told in texts if isinstance(told, Said)]
+        if why := next((told for told in (*captions.values(), *texts) if isinstance(told, str)), ""):
+            self.recording.unsaid[at] = why
         self.names.pop(showing.HERE, None)
-        self.recording.drawings[self.sheet.cells.index(cell)] = found
+        self.recording.drawings[at] = found
 
-    def told(self, stage: Stage, text: ast.expr) -> Said | None:
-        """A text, with the recorded numbers in it; None of one that is not known."""
+    def told(self, stage: Stage, text: ast.expr) -> Said | str:
+        """A text, with the recorded numbers in it; of one that is not known why."""
         self.step(stage, text.lineno, self.facts(showing.bound(text)), set())
         lost, value = self.lost.pop(showing.HERE, None), self.names.pop(showing.HERE, None)
         guards = *self.looked.get(showing.HERE, ()), *stage.guards.values()
         known = value if isinstance(value, Written) else Written((value,)) if isinstance(value, str) else None
-        return Said(known, guards) if known and not lost else None
+        return Said(known, guards) if known and not lost else f"line {text.lineno}: {lost or _MADE}"
 
     def step(self, stage: Stage, line: int, facts: statement.Statement, later: set[str]) -> None:
         """Run one statement; where it cannot be recorded, its names keep the numbers of the worksheet's own run.

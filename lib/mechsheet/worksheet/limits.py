@@ -71,7 +71,7 @@ def rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[A
 
     def say(field: Input, must: str, other: str = "") -> Callable[[int], SheetError]:
         def refusal(i: int) -> SheetError:
-            limit = f" = {_element(shown[other], i)}" if other else ""
+            limit = f" = {_element(shown[other], i)}{numbers.suffix(field.unit)}" if other else ""
             named = dataclasses.replace(field, name=f"{field.name} ({i + 1})") if field.many else field
             value = _element(shown[field.name], i)
             value = int(value) if field.whole and abs(value) <= _EXACT and value == np.rint(value) else value
@@ -93,10 +93,11 @@ def rules(fields: Iterable[Input], shown: Mapping[str, Any]) -> Iterator[tuple[A
         for sign, other in field.limits:
             is_input, is_length = other in shown, (sign, other) == (">", "0")
             limit = shown[other] if is_input else _number(other)
-            must = "positive" if is_length else f"{sign} {other}"
+            in_unit = "" if is_input else numbers.suffix(field.unit)
+            must = "positive" if is_length else f"{sign} {other}{in_unit}"
             yield _COMPARE[sign](value, limit), say(field, must, other * is_input)
             if is_length:
-                yield abs(value) >= LEAST, say(field, _AT_LEAST)
+                yield abs(value) >= LEAST, say(field, f"{_AT_LEAST}{in_unit}")
 
 
 @lru_cache(maxsize=1000)
