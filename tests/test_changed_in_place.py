@@ -24,6 +24,12 @@ ROWS = "T[2][0]", "T[3][0]"
 SUMS = "sum(T[2])", "sum(T[3])"
 PLACES = "T[2].x", "T[3].x"
 
+FIELDS = "T[2]['x']", "T[3]['x']"
+TOPS = "T[2]._top", "T[3]._top"
+COPY = "from copy import copy, deepcopy\n"
+DICTS = "T = [{'x': 1.0, 'l': [1.0]}, {'x': 2.0, 'l': [2.0]}, {'x': 3.0, 'l': [3.0]}, {'x': 9.0, 'l': [4.0]}]\n"
+ONE = "c = [1.0, g.a] if g.F > 2 else [3.0, 4.0]\n"
+
 FOLLOWED = [
     (TABLE + "c = T[g.k]\nc[0] = 50.0 * g.a", (*ROWS, "c[0]")),
     (TABLE + "T[g.k][1] += g.F", SUMS),
@@ -43,6 +49,28 @@ FOLLOWED = [
         "from types import SimpleNamespace as S\na, b = S(x=1.0), S(x=g.a)\n(a if g.F > 2 else b).x = 9.0",
         ("a.x", "b.x"),
     ),
+    # under a name that is no other's business, of one that may be None, of what a function gives that ends without one
+    (POINTS.replace("x: float", "x: float\n    _top: float = 0.0") + "T[g.k]._top = max(0.0, g.F - 3)", TOPS),
+    (POINTS + "c = next((p for p in T if p.x > g.F), None)\nif c is None:\n    c = T[0]\nc.x = g.a", PLACES),
+    (POINTS + "c = next((p for p in T if p.x > g.F - 1), None)\nc.x *= g.a", PLACES),
+    (TABLE + "c = next((row for row in T if row[0] > g.F), None)\nc[0] = 50.0", ("T[1][0]", "T[2][0]")),
+    (
+        DICTS + "def first():\n    for row in T:\n        if row['x'] > g.F:\n            return row\n"
+        "first()['x'] = g.a",
+        FIELDS,
+    ),
+    # copies, which are others
+    (COPY + DICTS + "c = copy(T[g.k])\nc['x'] *= g.a", (*FIELDS, "c['x']")),
+    (DICTS + "c = T[g.k].copy()\nc['x'] *= g.a\nc['y'] = 1.0", (*FIELDS, "c['x'] + c['y']")),
+    (COPY + DICTS + "c = deepcopy(T[g.k])\nc['l'][0] *= g.a", ("T[2]['l'][0]", "T[3]['l'][0]", "c['l'][0]")),
+    (COPY + POINTS + "c = copy(T[g.k])\nc.move(g.F)", (*PLACES, "c.x")),
+    (COPY + POINTS + "c = deepcopy(T[g.k])\nc.move(g.F)", (*PLACES, "c.x")),
+    (COPY + TABLE + "c = copy(T[g.k])\nc[0] = g.F\nc.append(g.a)", (*ROWS, "sum(c)")),
+    (POINTS + "from dataclasses import replace\nc = replace(T[g.k], x=g.F * T[g.k].x)\nc.move(1.0)", (*PLACES, "c.x")),
+    (POINTS + "c = T[g.k]\nif isinstance(c, Point):\n    c.x = g.F", PLACES),
+    # a list of two lists that have no other name
+    (ONE + "d = c if g.a > 1 else [g.a, 7.0]\nd[0] = 9.0", ("sum(c)", "sum(d)")),
+    (ONE + "c = c if g.a > 1 else [g.a, 7.0]\nc.append(9.0)", ("sum(c)",)),
     # lists that nobody else knows are such as any others
     ("c = [1.0, g.a] if g.F > 2 else [3.0, 4.0]\nc.append(5.0)\nc[0] = 9.0", ("sum(c)", "c[0]")),
     ("if g.F > 2:\n    c = [1.0, g.a]\nelse:\n    c = [3.0, 4.0]\nc += [g.F]\nc[0] = c[1]", ("sum(c)", "c[0]")),
@@ -53,6 +81,11 @@ FOLLOWED = [
     ),
 ]
 TOLD = [
+    (ONE + "d = c if g.a > 1 else [g.a, 7.0]\nd.append(4.0)", ("sum(c)", "sum(d)")),
+    (POINTS + "c = next((p for p in T if p.x > 2 * g.F), None)\nif c is not None:\n    c.x *= 0.5", PLACES),
+    (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c is not None:\n    c += [g.a]", SUMS),
+    (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c:\n    c[1] += g.a", SUMS),
+    (POINTS + "c = T[g.k]\nvars(c).update(x=7.0 * g.F - 17.5 + c.x)", PLACES),
     *((TABLE + f"c = T[g.k]\n{change}", (*SUMS, "sum(c)")) for change in (
         "c.append(5.0)", "c.extend([5.0])", "c += [5.0]", "c *= 2", "c.pop()", "del c[0]", "c[:] = [9.0]", "c.clear()",
         "c.insert(0, 5.0)", "c.remove(c[0])", "T[2].append(5.0)", "d = T[2]\nd[0] = 5.0",

@@ -38,7 +38,6 @@ class Meant:
         """Whether somebody else than what stands for them knows one of some lists."""
         held = Counter[int]()
         for each in self.lists():
-            held[id(each)] += 1
             held.update(map(id, each.ways))
         held.update(map(id, self.made))
         for memory in self.memories:

@@ -1,6 +1,7 @@
 """One of two lists that may have other names: who changes it changes the one that is meant."""
 
 from collections.abc import Callable, Iterable
+from copy import deepcopy
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
@@ -41,6 +42,12 @@ class OneOfLists(list[Any]):
         if self.ways and not self._meant.are_known(self.ways):
             self.ways = ()
         return not self.ways
+
+    def __copy__(self) -> list[Any]:
+        return [*self]
+
+    def __deepcopy__(self, known: dict[int, Any]) -> list[Any]:
+        return [deepcopy(part, known) for part in self]
 
     def __setitem__(self, key: Any, value: Any) -> None:
         if not self.is_alone():

@@ -37,7 +37,7 @@ from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import exactly, scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
-from mechsheet.recording.inspected import ASKING
+from mechsheet.recording.inspected import ASKING, OF_OBJECTS
 from mechsheet.recording.math_rules import MATH, STATISTICS
 from mechsheet.recording.own_modules import followed, is_own
 from mechsheet.recording.per_row import of_rows
@@ -129,6 +129,8 @@ def instead(value: Any) -> Any:
         return drawing
     if isinstance(value, Drawing) and current.get().refuses:
         return Sketch.of(value)
+    if isinstance(value, FunctionType) and value in OF_OBJECTS:
+        return OF_OBJECTS[value]
     room = str(getattr(value, "__module__", ""))
     if (unspoken := _unspoken(value, room)) is not None:
         return unspoken
