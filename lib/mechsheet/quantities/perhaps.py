@@ -5,7 +5,6 @@ For inputs for which it is None that is an error of Python's, and no number here
 
 from collections.abc import Callable, Iterator
 from copy import copy, deepcopy
-from operator import iadd
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
@@ -38,7 +37,7 @@ class Number(Quantity):
 
 
 class Row:
-    """A row, a text or an object of the worksheet's own, or None, into which Python cannot look."""
+    """A row, a text, a function or an object of the worksheet's own, or None, into which Python cannot look."""
 
     __slots__ = ("_itself", "_some")
 
@@ -62,8 +61,13 @@ class Row:
     def __setitem__(self, key: Any, value: Any) -> None:
         there(self)[key] = value
 
+    def __call__(self, *given: Any, **named: Any) -> Any:
+        return there(self)(*given, **named)
+
     def __iadd__(self, more: Any) -> Any:
-        return iadd(there(self), more)
+        own = there(self)
+        own += more
+        return own
 
     def __copy__(self) -> Any:
         return copy(there(self))

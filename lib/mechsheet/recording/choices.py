@@ -115,7 +115,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
     if x is UNBOUND or y is UNBOUND:
-        return refused(merged(condition, _bound(x, y), _bound(y, x)), read=False)
+        x, y = _bound(x, y), _bound(y, x)
+        return None if x is UNBOUND or y is UNBOUND else refused(merged(condition, x, y), read=False)
     alike = {type(x), type(y)} <= {list, OneOfLists} or (type(x) is type(y) and isinstance(x, tuple | list))
     if alike and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
@@ -208,6 +209,8 @@ def _missing(value: Any) -> Any:
         return new
     if isinstance(value, Quantity):
         return none_like(value)
+    if isinstance(value, FunctionType):
+        return lambda *given, **named: _missing(value(*given, **named))
     none = complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan
     return np.full(np.shape(value), none) if isinstance(value, ARRAYS) else UNBOUND
 
