@@ -9,7 +9,8 @@ from own_worksheet import ELSEWHERE, assert_followed, own, recorded
 
 from mechsheet.recording.record import record
 
-TABLE = "T = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]]\n"
+FOUR = "[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]]"
+TABLE = f"T = {FOUR}\n"
 TWO = "a, b = [1.0, 2.0], [3.0, g.a]\nc = a if g.F > 2 else b\n"
 POINTS = """from dataclasses import dataclass
 @dataclass
@@ -24,6 +25,10 @@ ROWS = "T[2][0]", "T[3][0]"
 SUMS = "sum(T[2])", "sum(T[3])"
 PLACES = "T[2].x", "T[3].x"
 
+LAWS = """from types import SimpleNamespace as S
+lin, sq = lambda t: 2 * t, lambda t: t * t
+T = [S(x=1.0, law=lin), S(x=2.0, law=sq), S(x=3.0, law=lin), S(x=4.0, law=lin)]
+"""
 FIELDS = "T[2]['x']", "T[3]['x']"
 TOPS = "T[2]._top", "T[3]._top"
 COPY = "from copy import copy, deepcopy\n"
@@ -59,6 +64,7 @@ FOLLOWED = [
         "first()['x'] = g.a",
         FIELDS,
     ),
+    (LAWS + "c = next(s for s in T if s.x >= g.F)\nc.law = sq", ("T[2].law(g.a)", "T[3].law(g.a)", "c.law(g.a)")),
     # copies, which are others
     (COPY + DICTS + "c = copy(T[g.k])\nc['x'] *= g.a", (*FIELDS, "c['x']")),
     (DICTS + "c = T[g.k].copy()\nc['x'] *= g.a\nc['y'] = 1.0", (*FIELDS, "c['x'] + c['y']")),
@@ -85,6 +91,12 @@ TOLD = [
     (POINTS + "c = next((p for p in T if p.x > 2 * g.F), None)\nif c is not None:\n    c.x *= 0.5", PLACES),
     (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c is not None:\n    c += [g.a]", SUMS),
     (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c:\n    c[1] += g.a", SUMS),
+    *((f"T = np.array({FOUR})\n{change}", ("T[2].sum()", "T[3].sum()")) for change in (
+        "c = T[g.k]\nc[0] = max(5.0, 2 * g.F)", "c = T[g.k]\nc *= max(1.0, g.F - 2)",
+        "c = T[g.k]\nif g.a > 1:\n    c[0] = 2",
+        "c = T[g.k:]\nc[0] = max(T[g.k, 0], g.F)", "c = T[1:]  # [mm] rows\nc[1] = T[2] * max(1.0, g.F - 2)",
+        "c = np.reshape(T, (g.k, 4))\nc[1] = c[1] * max(1.0, g.F - 2)",
+    )),
     (POINTS + "c = T[g.k]\nvars(c).update(x=7.0 * g.F - 17.5 + c.x)", PLACES),
     *((TABLE + f"c = T[g.k]\n{change}", (*SUMS, "sum(c)")) for change in (
         "c.append(5.0)", "c.extend([5.0])", "c += [5.0]", "c *= 2", "c.pop()", "del c[0]", "c[:] = [9.0]", "c.clear()",

@@ -39,7 +39,7 @@ class Quantity(NDArrayOperatorsMixin):
 
     def __init__(self, graph: Graph, re: Node, im: Node | None = None) -> None:
         self.graph, self.re, self.im = graph, re, im
-        self.base: Quantity | None = None  # of which it is a view, were these numpy's arrays
+        self.base: Quantity | Values | None = None  # of which it is a view, were these numpy's arrays
 
     @property
     def value(self) -> Values:
@@ -419,11 +419,11 @@ def lift(graph: Graph, value: Any) -> Quantity:
     if isinstance(value, Constant):
         return Quantity(graph, graph.constant(float(value), value.unit))
     array = np.asarray(float(value) if type(value) is int and abs(value) > _LONGEST else value)
-    if array.dtype.kind == "c":
-        return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))
-    if array.dtype.kind not in "biuf":
+    if array.dtype.kind not in "biufc":
         raise NotRecorded("values that are no numbers")
-    return Quantity(graph, graph.constant(array))
+    made = Quantity(graph, *map(graph.constant, (array.real, array.imag) if array.dtype.kind == "c" else (array,)))
+    made.base = value if isinstance(value, np.ndarray) and value.ndim else None
+    return made
 
 
 def stack(parts: Sequence[Quantity]) -> Quantity:
