@@ -156,6 +156,14 @@ class Thing:
     def __deepcopy__(self, known: dict[int, Any]) -> Any:
         return deepcopy(copy(self), known)
 
+    def __bool__(self) -> bool:
+        kind: Any = _kind(self)
+        own = getattr(kind, "__bool__", None) or getattr(kind, "__len__", None)
+        return bool(own(self)) if own else True
+
+    def __str__(self) -> str:
+        raise NotRecorded("one of several objects is written as a text")
+
     def __eq__(self, other: object) -> Any:
         x, y = self._things
         return self._merge(x == other, y == other)
