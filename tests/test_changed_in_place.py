@@ -96,6 +96,10 @@ TOLD = [
         "c = T[g.k]\nif g.a > 1:\n    c[0] = 2",
         "c = T[g.k:]\nc[0] = max(T[g.k, 0], g.F)", "c = T[1:]  # [mm] rows\nc[1] = T[2] * max(1.0, g.F - 2)",
         "c = np.reshape(T, (g.k, 4))\nc[1] = c[1] * max(1.0, g.F - 2)",
+        *(f"T = T * (g.F / g.F)\nc = {form}\nc[2] = c[2] * max(1.0, g.F - 2)" for form in (
+            "T.real", "np.real(T)", "np.asarray(T, dtype=float)", "np.array(T, copy=None)",
+            "T.astype(float, copy=False)",
+        )),
     )),
     (POINTS + "c = T[g.k]\nvars(c).update(x=7.0 * g.F - 17.5 + c.x)", PLACES),
     *((TABLE + f"c = T[g.k]\n{change}", (*SUMS, "sum(c)")) for change in (

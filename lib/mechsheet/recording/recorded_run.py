@@ -300,9 +300,7 @@ class Run(Guarded, OfPositions):
 
     def in_unit(self, value: Any, numbers: Any, unit: str) -> Quantity:
         """The numbers of a value, in a unit; whoever changes elements of it in place changes those of the value."""
-        made = Quantity(self.graph, self.graph.constant(numbers, unit))
-        made.base = lift(self.graph, value).base
-        return made
+        return Quantity(self.graph, self.graph.constant(numbers, unit), base=lift(self.graph, value).base)
 
     def declared(self, name: str) -> Formula | None:
         """The line that declares what the present statement binds a name to, which another one may bind anew."""
