@@ -91,6 +91,16 @@ TOLD = [
     (POINTS + "c = next((p for p in T if p.x > 2 * g.F), None)\nif c is not None:\n    c.x *= 0.5", PLACES),
     (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c is not None:\n    c += [g.a]", SUMS),
     (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c:\n    c[1] += g.a", SUMS),
+    # a part of one that there is not always
+    *((f"T = {FOUR[:23]}]\n{change}", ("T[0][0]", "T[1][0]")) for change in (
+        "c = next(row for row in T if row[0] > g.F)\nc[0] = 50.0",
+        "c = [row for row in T if row[0] > g.F][0]\nc[0] = 50.0",
+        "c = min((row for row in T if row[0] > g.F), key=sum)\nc[0] = 50.0",
+        "for row in T:\n    if row[0] > g.F:\n        c = row\nc[0] = 50.0",
+    )),
+    (POINTS + "c = next(p for p in T[:3] if p.x > g.F)\nc.x = 50.0", PLACES),
+    (DICTS + "c = next(p for p in T[:3] if p['x'] > g.F)\nc['l'][0] = 50.0", ("T[2]['l'][0]", "T[1]['l'][0]")),
+    (DICTS + "def f():\n    for p in T[:3]:\n        if p['x'] > g.F:\n            return p\nf()['x'] = 5.0", FIELDS),
     *((f"T = np.array({FOUR})\n{change}", ("T[2].sum()", "T[3].sum()")) for change in (
         "c = T[g.k]\nc[0] = max(5.0, 2 * g.F)", "c = T[g.k]\nc *= max(1.0, g.F - 2)",
         "c = T[g.k]\nif g.a > 1:\n    c[0] = 2",

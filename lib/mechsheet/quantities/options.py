@@ -8,6 +8,7 @@ from types import FunctionType, MethodType, SimpleNamespace
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.refused import needed
 
 Merge = Callable[[Any, Any], Any]  # of what both have as a part, the one that is meant
 NEW = "one of several objects is given a part that it had not"
@@ -43,11 +44,31 @@ def _ways(one: Any) -> Sequence[Any]:
     return ways
 
 
-def _set(own: Any, ways: Sequence[Any], value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
+def _set(own: Any, value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
     """Give a part of one of two a value: it is set in each of them where that one is meant."""
-    x, y = ways
-    put(x, own._merge(value, of(x)))
-    put(y, own._merge(of(y), value))  # as it is by now: the first may be in it
+    must_exist(own)
+    _put(own, value, of, put)
+
+
+def _put(own: Any, value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
+    if not isinstance(own, Row | Fields | Thing):
+        put(own, value)
+        return
+    x, y = _ways(own)
+    _put(x, own._merge(value, of(x)), of, put)
+    _put(y, own._merge(of(y), value), of, put)  # as it is by now: the first may be in it
+
+
+def must_exist(one: Any) -> None:
+    """Note that a row or an object is there: Python has an error where it sets a part of none."""
+    if (there := _exists(one)) is not True:
+        needed(there, "there is none of which a part is set")
+
+
+def _exists(one: Any) -> Any:
+    """Whether one that the worksheet has is meant, and not what stands for it where it has none."""
+    ways = _ways(one) if isinstance(one, Row | Fields | Thing) else one.ways if hasattr(type(one), "is_alone") else ()
+    return one._merge(*map(_exists, ways)) if ways else id(one) not in current.get().meant.missing
 
 
 class Known(dict[Any, Any]):
@@ -68,7 +89,7 @@ class Row(Mapping[Any, Any]):
     def __setitem__(self, key: Any, value: Any) -> None:
         if key not in self._rows[0]:
             raise NotRecorded(NEW)
-        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
+        _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self._rows[0])
@@ -104,7 +125,7 @@ class Fields(Sequence[Any]):
     def __setitem__(self, key: Any, value: Any) -> None:
         if isinstance(key, slice):
             raise NotRecorded(NEW)
-        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
+        _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __len__(self) -> int:
         return len(self._rows[0])
@@ -145,7 +166,7 @@ class Thing:
             raise NotRecorded(f"{kind.__name__} says itself what it is to set {name}")
         if not hasattr(self._things[0], name):
             raise NotRecorded(NEW)
-        _set(self, self._things, value, attrgetter(name), lambda thing, part: setattr(thing, name, part))
+        _set(self, value, attrgetter(name), lambda thing, part: setattr(thing, name, part))
 
     def __copy__(self) -> Any:
         kind: Any = _kind(self)
