@@ -37,7 +37,7 @@ class Quantity(NDArrayOperatorsMixin):
 
     __slots__ = ("__weakref__", "base", "graph", "im", "re", "ways")  # the last of one of several arrays alone
 
-    def __init__(self, graph: Graph, re: Node, im: Node | None = None, base: Any = None) -> None:
+    def __init__(self, graph: Graph, re: Node, im: Node | None = None, *, base: Any = None) -> None:
         self.graph, self.re, self.im = graph, re, im
         self.base: Quantity | Values | None = base  # of which it is a view, were these numpy's arrays
 
