@@ -425,3 +425,25 @@ def test_what_is_sorted_into_lists_follows(lines: str, tmp_path: Path) -> None:
     """What stood in one of several lists was appended to a copy, so that all would differ from the worksheet."""
     assert_never_stale(lines, tmp_path)
     assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+SPEAKS = """from dataclasses import dataclass
+@dataclass
+class Rod:
+    d: float
+    def __SAYS__(self):
+        return OF
+"""
+RODS = "T = [Rod(1.0), Rod(g.F), Rod(3.0), Rod(2.0)]\nc = T[g.k]\n"
+SPECIAL = [
+    SPEAKS.replace("SAYS", "bool").replace("OF", "self.d > 2") + RODS + "y = g.a if c else 2.0",
+    SPEAKS.replace("SAYS", "len").replace("OF", "int(self.d > 2)") + RODS + "y = g.a if c else 2.0",
+    SPEAKS.replace("SAYS", "str").replace("OF", "f'{self.d:.1f}'") + RODS + "y = g.a if str(c) == '2.0' else 2.0",
+    SPEAKS.replace("SAYS", "str").replace("OF", "f'{self.d:.1f}'") + RODS + "y = g.a if f'{c}' == '2.0' else 2.0",
+]
+
+
+@pytest.mark.parametrize("lines", SPECIAL)
+def test_an_object_says_itself_whether_it_is_true(lines: str, tmp_path: Path) -> None:
+    """One of several was true and had a text of its own, whatever its class says of that."""
+    assert_never_stale(lines, tmp_path)

@@ -9,7 +9,8 @@ from own_worksheet import ELSEWHERE, assert_followed, own, recorded
 
 from mechsheet.recording.record import record
 
-TABLE = "T = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]]\n"
+FOUR = "[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]]"
+TABLE = f"T = {FOUR}\n"
 TWO = "a, b = [1.0, 2.0], [3.0, g.a]\nc = a if g.F > 2 else b\n"
 POINTS = """from dataclasses import dataclass
 @dataclass
@@ -23,6 +24,16 @@ SPACE = "from types import SimpleNamespace as S\n"
 ROWS = "T[2][0]", "T[3][0]"
 SUMS = "sum(T[2])", "sum(T[3])"
 PLACES = "T[2].x", "T[3].x"
+
+LAWS = """from types import SimpleNamespace as S
+lin, sq = lambda t: 2 * t, lambda t: t * t
+T = [S(x=1.0, law=lin), S(x=2.0, law=sq), S(x=3.0, law=lin), S(x=4.0, law=lin)]
+"""
+FIELDS = "T[2]['x']", "T[3]['x']"
+TOPS = "T[2]._top", "T[3]._top"
+COPY = "from copy import copy, deepcopy\n"
+DICTS = "T = [{'x': 1.0, 'l': [1.0]}, {'x': 2.0, 'l': [2.0]}, {'x': 3.0, 'l': [3.0]}, {'x': 9.0, 'l': [4.0]}]\n"
+ONE = "c = [1.0, g.a] if g.F > 2 else [3.0, 4.0]\n"
 
 FOLLOWED = [
     (TABLE + "c = T[g.k]\nc[0] = 50.0 * g.a", (*ROWS, "c[0]")),
@@ -43,6 +54,29 @@ FOLLOWED = [
         "from types import SimpleNamespace as S\na, b = S(x=1.0), S(x=g.a)\n(a if g.F > 2 else b).x = 9.0",
         ("a.x", "b.x"),
     ),
+    # under a name that is no other's business, of one that may be None, of what a function gives that ends without one
+    (POINTS.replace("x: float", "x: float\n    _top: float = 0.0") + "T[g.k]._top = max(0.0, g.F - 3)", TOPS),
+    (POINTS + "c = next((p for p in T if p.x > g.F), None)\nif c is None:\n    c = T[0]\nc.x = g.a", PLACES),
+    (POINTS + "c = next((p for p in T if p.x > g.F - 1), None)\nc.x *= g.a", PLACES),
+    (TABLE + "c = next((row for row in T if row[0] > g.F), None)\nc[0] = 50.0", ("T[1][0]", "T[2][0]")),
+    (
+        DICTS + "def first():\n    for row in T:\n        if row['x'] > g.F:\n            return row\n"
+        "first()['x'] = g.a",
+        FIELDS,
+    ),
+    (LAWS + "c = next(s for s in T if s.x >= g.F)\nc.law = sq", ("T[2].law(g.a)", "T[3].law(g.a)", "c.law(g.a)")),
+    # copies, which are others
+    (COPY + DICTS + "c = copy(T[g.k])\nc['x'] *= g.a", (*FIELDS, "c['x']")),
+    (DICTS + "c = T[g.k].copy()\nc['x'] *= g.a\nc['y'] = 1.0", (*FIELDS, "c['x'] + c['y']")),
+    (COPY + DICTS + "c = deepcopy(T[g.k])\nc['l'][0] *= g.a", ("T[2]['l'][0]", "T[3]['l'][0]", "c['l'][0]")),
+    (COPY + POINTS + "c = copy(T[g.k])\nc.move(g.F)", (*PLACES, "c.x")),
+    (COPY + POINTS + "c = deepcopy(T[g.k])\nc.move(g.F)", (*PLACES, "c.x")),
+    (COPY + TABLE + "c = copy(T[g.k])\nc[0] = g.F\nc.append(g.a)", (*ROWS, "sum(c)")),
+    (POINTS + "from dataclasses import replace\nc = replace(T[g.k], x=g.F * T[g.k].x)\nc.move(1.0)", (*PLACES, "c.x")),
+    (POINTS + "c = T[g.k]\nif isinstance(c, Point):\n    c.x = g.F", PLACES),
+    # a list of two lists that have no other name
+    (ONE + "d = c if g.a > 1 else [g.a, 7.0]\nd[0] = 9.0", ("sum(c)", "sum(d)")),
+    (ONE + "c = c if g.a > 1 else [g.a, 7.0]\nc.append(9.0)", ("sum(c)",)),
     # lists that nobody else knows are such as any others
     ("c = [1.0, g.a] if g.F > 2 else [3.0, 4.0]\nc.append(5.0)\nc[0] = 9.0", ("sum(c)", "c[0]")),
     ("if g.F > 2:\n    c = [1.0, g.a]\nelse:\n    c = [3.0, 4.0]\nc += [g.F]\nc[0] = c[1]", ("sum(c)", "c[0]")),
@@ -53,6 +87,31 @@ FOLLOWED = [
     ),
 ]
 TOLD = [
+    (ONE + "d = c if g.a > 1 else [g.a, 7.0]\nd.append(4.0)", ("sum(c)", "sum(d)")),
+    (POINTS + "c = next((p for p in T if p.x > 2 * g.F), None)\nif c is not None:\n    c.x *= 0.5", PLACES),
+    (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c is not None:\n    c += [g.a]", SUMS),
+    (TABLE + "c = next((row for row in T if row[0] > 2 * g.F), None)\nif c:\n    c[1] += g.a", SUMS),
+    # a part of one that there is not always
+    *((f"T = {FOUR[:23]}]\n{change}", ("T[0][0]", "T[1][0]")) for change in (
+        "c = next(row for row in T if row[0] > g.F)\nc[0] = 50.0",
+        "c = [row for row in T if row[0] > g.F][0]\nc[0] = 50.0",
+        "c = min((row for row in T if row[0] > g.F), key=sum)\nc[0] = 50.0",
+        "for row in T:\n    if row[0] > g.F:\n        c = row\nc[0] = 50.0",
+    )),
+    (POINTS + "c = next(p for p in T[:3] if p.x > g.F)\nc.x = 50.0", PLACES),
+    (DICTS + "c = next(p for p in T[:3] if p['x'] > g.F)\nc['l'][0] = 50.0", ("T[2]['l'][0]", "T[1]['l'][0]")),
+    (DICTS + "def f():\n    for p in T[:3]:\n        if p['x'] > g.F:\n            return p\nf()['x'] = 5.0", FIELDS),
+    *((f"T = np.array({FOUR})\n{change}", ("T[2].sum()", "T[3].sum()")) for change in (
+        "c = T[g.k]\nc[0] = max(5.0, 2 * g.F)", "c = T[g.k]\nc *= max(1.0, g.F - 2)",
+        "c = T[g.k]\nif g.a > 1:\n    c[0] = 2",
+        "c = T[g.k:]\nc[0] = max(T[g.k, 0], g.F)", "c = T[1:]  # [mm] rows\nc[1] = T[2] * max(1.0, g.F - 2)",
+        "c = np.reshape(T, (g.k, 4))\nc[1] = c[1] * max(1.0, g.F - 2)",
+        *(f"T = T * (g.F / g.F)\nc = {form}\nc[2] = c[2] * max(1.0, g.F - 2)" for form in (
+            "T.real", "np.real(T)", "np.asarray(T, dtype=float)", "np.array(T, copy=None)",
+            "T.astype(float, copy=False)",
+        )),
+    )),
+    (POINTS + "c = T[g.k]\nvars(c).update(x=7.0 * g.F - 17.5 + c.x)", PLACES),
     *((TABLE + f"c = T[g.k]\n{change}", (*SUMS, "sum(c)")) for change in (
         "c.append(5.0)", "c.extend([5.0])", "c += [5.0]", "c *= 2", "c.pop()", "del c[0]", "c[:] = [9.0]", "c.clear()",
         "c.insert(0, 5.0)", "c.remove(c[0])", "T[2].append(5.0)", "d = T[2]\nd[0] = 5.0",

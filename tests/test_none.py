@@ -77,6 +77,7 @@ FOLLOWED = [
     "v = np.array([1.0, g.F]) if g.F > 3 else None\ny = 0.0 if v is None else v.sum()",
     "v = [g.F if k > g.F else None for k in (1, 3, 5)]\n"
     "y = sum(w for w in v if w is not None) + sum(w is None for w in v)",
+    "def twice(v):\n    return 2 * v\nf = None\nif g.F > 2:\n    f = twice\ny = g.a if f is None else f(g.a)",
     # where Python asks otherwise than by `is None`
     f"{OF_F}y = (r or 1.5) * g.a",
     f"{OF_F}y = -1.0 if not r else r",

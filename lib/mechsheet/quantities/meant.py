@@ -16,6 +16,7 @@ class Meant:
         self.gone: list[weakref.ref[Any]] = []  # arrays in whose place another one was put
         self.taken: dict[int, tuple[Any, dict[int, Any]]] = {}  # what Python took and out of what, by identities
         self.memories: Any = weakref.WeakSet()  # which hold what they compare
+        self.missing: dict[int, Any] = {}  # by its identity: what stands for a row or an object where there is none
 
     def lists(self) -> Iterator[Any]:
         """All lists that stand for one of two."""
@@ -38,9 +39,8 @@ class Meant:
         """Whether somebody else than what stands for them knows one of some lists."""
         held = Counter[int]()
         for each in self.lists():
-            held[id(each)] += 1
             held.update(map(id, each.ways))
-        held.update(map(id, self.made))
+        held.update(map(id, (*self.made, *self.missing.values())))
         for memory in self.memories:
             held.update(memory.holding())
         return _are_known(ways, held)

@@ -1,10 +1,12 @@
 """One of two lists that may have other names: who changes it changes the one that is meant."""
 
 from collections.abc import Callable, Iterable
+from copy import deepcopy
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.meant import Meant
+from mechsheet.quantities.options import must_exist
 
 CHANGED = "a list is changed of which a condition tells which one it is"
 _CHANGE = (
@@ -42,7 +44,18 @@ class OneOfLists(list[Any]):
             self.ways = ()
         return not self.ways
 
+    def __copy__(self) -> list[Any]:
+        return [*self]
+
+    def __deepcopy__(self, known: dict[int, Any]) -> list[Any]:
+        return [deepcopy(part, known) for part in self]
+
     def __setitem__(self, key: Any, value: Any) -> None:
+        if not self.is_alone():
+            must_exist(self)
+        self._put(key, value)
+
+    def _put(self, key: Any, value: Any) -> None:
         if not self.is_alone():
             if type(key) is not int or self.is_stale():
                 raise NotRecorded(CHANGED)
@@ -50,7 +63,8 @@ class OneOfLists(list[Any]):
             parts = self._merge(value, x[key]), self._merge(y[key], value)
             if any(part is None for part in parts):
                 raise NotRecorded(CHANGED)
-            x[key], y[key] = parts
+            for way, part in zip((x, y), parts, strict=True):
+                (way._put if isinstance(way, OneOfLists) else way.__setitem__)(key, part)
         super().__setitem__(key, value)
         self._note()
 

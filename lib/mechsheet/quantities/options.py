@@ -1,12 +1,14 @@
 """Rows, lists and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import copy, deepcopy
 from dataclasses import is_dataclass
 from operator import attrgetter, itemgetter, setitem
 from types import FunctionType, MethodType, SimpleNamespace
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded, current
+from mechsheet.quantities.refused import needed
 
 Merge = Callable[[Any, Any], Any]  # of what both have as a part, the one that is meant
 NEW = "one of several objects is given a part that it had not"
@@ -14,7 +16,7 @@ NEW = "one of several objects is given a part that it had not"
 
 def _once(own: Any, key: Any, x: Any, y: Any, of: Callable[[Any], Any]) -> Any:
     """The part of one of two that ``of`` reads, which is merged once unless Python sees which of the two it is."""
-    held, known, graph, now = vars(own), f"part {key!r}", current.get(), [of(each) for each in _every(own, x, y)]
+    held, known, graph, now = own._held, repr(key), current.get(), [of(each) for each in every(own)]
     if known in held and all(a is b for a, b in zip(now, held[known][0], strict=True)):
         return held[known][1]
     looked, graph.looked = graph.looked, {}
@@ -27,13 +29,14 @@ def _once(own: Any, key: Any, x: Any, y: Any, of: Callable[[Any], Any]) -> Any:
     return found
 
 
-def _every(own: Any, *ways: Any) -> list[Any]:
+def every(one: Any) -> list[Any]:
     """All rows or objects of which one is meant, each once."""
-    if "_each" not in (held := vars(own)):
-        each = (_every(way, *_ways(way)) if isinstance(way, Row | Fields | Thing) else [way] for way in ways)
-        held["_each"] = [*{id(one): one for part in each for one in part}.values()]
-    every: list[Any] = held["_each"]
-    return every
+    if not isinstance(one, Row | Fields | Thing):
+        return [one]
+    if None not in one._held:
+        one._held[None] = [*{id(each): each for way in _ways(one) for each in every(way)}.values()]
+    found: list[Any] = one._held[None]
+    return found
 
 
 def _ways(one: Any) -> Sequence[Any]:
@@ -41,18 +44,44 @@ def _ways(one: Any) -> Sequence[Any]:
     return ways
 
 
-def _set(own: Any, ways: Sequence[Any], value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
+def _set(own: Any, value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
     """Give a part of one of two a value: it is set in each of them where that one is meant."""
-    x, y = ways
-    put(x, own._merge(value, of(x)))
-    put(y, own._merge(of(y), value))  # as it is by now: the first may be in it
+    must_exist(own)
+    _put(own, value, of, put)
+
+
+def _put(own: Any, value: Any, of: Callable[[Any], Any], put: Callable[[Any, Any], None]) -> None:
+    if not isinstance(own, Row | Fields | Thing):
+        put(own, value)
+        return
+    x, y = _ways(own)
+    _put(x, own._merge(value, of(x)), of, put)
+    _put(y, own._merge(of(y), value), of, put)  # as it is by now: the first may be in it
+
+
+def must_exist(one: Any) -> None:
+    """Note that a row or an object is there: Python has an error where it sets a part of none."""
+    if (there := _exists(one)) is not True:
+        needed(there, "there is none of which a part is set")
+
+
+def _exists(one: Any) -> Any:
+    """Whether one that the worksheet has is meant, and not what stands for it where it has none."""
+    ways = _ways(one) if isinstance(one, Row | Fields | Thing) else one.ways if hasattr(type(one), "is_alone") else ()
+    return one._merge(*map(_exists, ways)) if ways else id(one) not in current.get().meant.missing
+
+
+class Known(dict[Any, Any]):
+    """What is merged already of one of two: nothing of the worksheet's, which may change."""
 
 
 class Row(Mapping[Any, Any]):
     """One of two dictionaries with the same keys."""
 
+    __slots__ = ("_held", "_merge", "_rows")
+
     def __init__(self, merge: Merge, x: Mapping[Any, Any], y: Mapping[Any, Any]) -> None:
-        self._merge, self._rows = merge, (x, y)
+        self._merge, self._rows, self._held = merge, (x, y), Known()
 
     def __getitem__(self, key: Any) -> Any:
         return _once(self, key, *self._rows, itemgetter(key))
@@ -60,7 +89,7 @@ class Row(Mapping[Any, Any]):
     def __setitem__(self, key: Any, value: Any) -> None:
         if key not in self._rows[0]:
             raise NotRecorded(NEW)
-        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
+        _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __iter__(self) -> Iterator[Any]:
         return iter(self._rows[0])
@@ -68,12 +97,24 @@ class Row(Mapping[Any, Any]):
     def __len__(self) -> int:
         return len(self._rows[0])
 
+    def __copy__(self) -> Any:
+        new: Any = copy(every(self)[0])
+        new.update(self)
+        return new
+
+    def __deepcopy__(self, known: dict[int, Any]) -> Any:
+        return deepcopy(copy(self), known)
+
+    copy = __copy__
+
 
 class Fields(Sequence[Any]):
     """One of two tuples or lists of a length, of which not all parts are numbers."""
 
+    __slots__ = ("_held", "_merge", "_rows")
+
     def __init__(self, merge: Merge, x: Sequence[Any], y: Sequence[Any]) -> None:
-        self._merge, self._rows = merge, (x, y)
+        self._merge, self._rows, self._held = merge, (x, y), Known()
 
     def __getitem__(self, key: Any) -> Any:
         x, y = self._rows
@@ -84,7 +125,7 @@ class Fields(Sequence[Any]):
     def __setitem__(self, key: Any, value: Any) -> None:
         if isinstance(key, slice):
             raise NotRecorded(NEW)
-        _set(self, self._rows, value, itemgetter(key), lambda row, part: setitem(row, key, part))
+        _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __len__(self) -> int:
         return len(self._rows[0])
@@ -95,24 +136,28 @@ class Fields(Sequence[Any]):
             raise AttributeError(name)
         return _once(self, name, *self._rows, attrgetter(name))
 
+    def __copy__(self) -> Any:
+        return self if isinstance(every(self)[0], tuple) else [*self]
+
 
 class Thing:
     """One of two objects of a class."""
 
+    __slots__ = ("_held", "_merge", "_things")
     __hash__ = None  # type: ignore[assignment]  # as that of what is compared by its parts
 
     def __init__(self, merge: Merge, x: Any, y: Any) -> None:
-        self._merge, self._things = merge, (x, y)
+        self._merge, self._things, self._held = merge, (x, y), Known()
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
+        if name.startswith("__"):
             raise AttributeError(name)
         if isinstance(method := getattr(_kind(self._things[0]), name, None), FunctionType):
             return MethodType(method, self)
         return _once(self, name, *self._things, attrgetter(name))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name.startswith("_"):
+        if name in Thing.__slots__:
             super().__setattr__(name, value)
             return
         kind: Any = _kind(self)
@@ -121,7 +166,24 @@ class Thing:
             raise NotRecorded(f"{kind.__name__} says itself what it is to set {name}")
         if not hasattr(self._things[0], name):
             raise NotRecorded(NEW)
-        _set(self, self._things, value, attrgetter(name), lambda thing, part: setattr(thing, name, part))
+        _set(self, value, attrgetter(name), lambda thing, part: setattr(thing, name, part))
+
+    def __copy__(self) -> Any:
+        kind: Any = _kind(self)
+        new = kind.__new__(kind)
+        vars(new).update((name, getattr(self, name)) for name in vars(every(self)[0]))
+        return new
+
+    def __deepcopy__(self, known: dict[int, Any]) -> Any:
+        return deepcopy(copy(self), known)
+
+    def __bool__(self) -> bool:
+        kind: Any = _kind(self)
+        own = getattr(kind, "__bool__", None) or getattr(kind, "__len__", None)
+        return bool(own(self)) if own else True
+
+    def __str__(self) -> str:
+        raise NotRecorded("one of several objects is written as a text")
 
     def __eq__(self, other: object) -> Any:
         x, y = self._things
@@ -142,9 +204,8 @@ def is_same(x: Any, y: Any) -> Any:
 
 
 def changed(change: Callable[[Any], Any], one: "Row | Fields | Thing") -> Any:
-    """One of two rows or objects, each of its parts changed."""
-    merge, both = one._merge, _ways(one)
-    return type(one)(lambda x, y: change(merge(x, y)), *both)
+    """One of two other rows or objects, each as it is changed."""
+    return type(one)(one._merge, *map(change, _ways(one)))
 
 
 def parted(merge: Merge, x: Any, y: Any) -> Any:

@@ -4,6 +4,7 @@ For inputs for which it is None that is an error of Python's, and no number here
 """
 
 from collections.abc import Callable, Iterator
+from copy import copy, deepcopy
 from typing import Any
 
 from mechsheet.quantities.graph import NotRecorded
@@ -36,18 +37,43 @@ class Number(Quantity):
 
 
 class Row:
-    """A row, a text or an object of the worksheet's own, or None, into which Python cannot look."""
+    """A row, a text, a function or an object of the worksheet's own, or None, into which Python cannot look."""
+
+    __slots__ = ("_itself", "_some")
 
     def __init__(self, some: Quantity, value: Any) -> None:
         self._some, self._itself = some, value
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
+        if name.startswith("__"):
             raise AttributeError(name)
         return self._part(getattr(self._itself, name))
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in Row.__slots__:
+            super().__setattr__(name, value)
+        else:
+            setattr(there(self), name, value)
+
     def __getitem__(self, key: Any) -> Any:
         return self._part(self._itself[key])
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        there(self)[key] = value
+
+    def __call__(self, *given: Any, **named: Any) -> Any:
+        return there(self)(*given, **named)
+
+    def __iadd__(self, more: Any) -> Any:
+        own = there(self)
+        own += more
+        return own
+
+    def __copy__(self) -> Any:
+        return copy(there(self))
+
+    def __deepcopy__(self, known: dict[int, Any]) -> Any:
+        return deepcopy(there(self), known)
 
     def _part(self, part: Any) -> Any:
         """A part of it: a number is none where it is None, of all else Python looks whether it is there."""

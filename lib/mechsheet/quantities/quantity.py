@@ -37,9 +37,9 @@ class Quantity(NDArrayOperatorsMixin):
 
     __slots__ = ("__weakref__", "base", "graph", "im", "re", "ways")  # the last of one of several arrays alone
 
-    def __init__(self, graph: Graph, re: Node, im: Node | None = None) -> None:
+    def __init__(self, graph: Graph, re: Node, im: Node | None = None, *, base: Any = None) -> None:
         self.graph, self.re, self.im = graph, re, im
-        self.base: Quantity | None = None  # of which it is a view, were these numpy's arrays
+        self.base: Quantity | Values | None = base  # of which it is a view, were these numpy's arrays
 
     @property
     def value(self) -> Values:
@@ -105,11 +105,11 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def real(self) -> "Quantity":
-        return Quantity(self.graph, self.re)
+        return Quantity(self.graph, self.re, base=self)
 
     @property
     def imag(self) -> "Quantity":
-        return Quantity(self.graph, self.graph.constant(0.0) if self.im is None else self.im)
+        return Quantity(self.graph, self.graph.constant(0.0) if self.im is None else self.im, base=self)
 
     def called(self, symbol: str, unit: str, meaning: str) -> "Quantity":
         """Name a step of a calculation: it gets a cell of its own."""
@@ -260,7 +260,6 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def T(self) -> "Quantity":
-        """Transposed."""
         return self.rearranged(np.transpose)
 
     def conjugate(self) -> "Quantity":
@@ -271,7 +270,9 @@ class Quantity(NDArrayOperatorsMixin):
     def flatten(self, *order: Any) -> "Quantity":
         return self.rearranged(np.ravel, *order).__copy__()
 
-    def astype(self, kind: Any, **_: Any) -> "Quantity":
+    def astype(self, kind: Any, copy: Any = True, **_: Any) -> "Quantity":
+        if not copy and self.dtype == kind:
+            return self
         if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
             raise NotRecorded(f"numbers of the kind {dtype}")
         kind = dtype.kind
@@ -419,11 +420,10 @@ def lift(graph: Graph, value: Any) -> Quantity:
     if isinstance(value, Constant):
         return Quantity(graph, graph.constant(float(value), value.unit))
     array = np.asarray(float(value) if type(value) is int and abs(value) > _LONGEST else value)
-    if array.dtype.kind == "c":
-        return Quantity(graph, graph.constant(array.real), graph.constant(array.imag))
-    if array.dtype.kind not in "biuf":
+    if array.dtype.kind not in "biufc":
         raise NotRecorded("values that are no numbers")
-    return Quantity(graph, graph.constant(array))
+    parts = map(graph.constant, (array.real, array.imag) if array.dtype.kind == "c" else (array,))
+    return Quantity(graph, *parts, base=value if isinstance(value, np.ndarray) and value.ndim else None)
 
 
 def stack(parts: Sequence[Quantity]) -> Quantity:

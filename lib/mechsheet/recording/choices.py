@@ -116,7 +116,8 @@ def merged(condition: Quantity, x: Any, y: Any) -> Any:
     if (x if condition.value else y) is UNBOUND and not condition.graph.supposed:
         return UNBOUND
     if x is UNBOUND or y is UNBOUND:
-        return refused(merged(condition, _bound(x, y), _bound(y, x)), read=False)
+        x, y = _bound(x, y), _bound(y, x)
+        return None if x is UNBOUND or y is UNBOUND else refused(merged(condition, x, y), read=False)
     alike = {type(x), type(y)} <= {list, OneOfLists} or (type(x) is type(y) and isinstance(x, tuple | list))
     if alike and len(x) == len(y):
         parts = [part_of(condition, a, b) for a, b in zip(x, y, strict=True)]
@@ -197,20 +198,27 @@ def _missing(value: Any) -> Any:
     if isinstance(value, str | Written):
         return _NOTHING
     if isinstance(value, tuple | list):
-        return regrouped(value, map(_missing, value))
+        return _noted(regrouped(value, map(_missing, value)))
     if isinstance(value, Row | Fields | Thing):
         return changed(_missing, value)
     if isinstance(value, dict):
-        return {key: _missing(part) for key, part in value.items()}
+        return _noted({key: _missing(part) for key, part in value.items()})
     if is_object(value):
         kind: Any = type(value)
         new = kind.__new__(kind)  # a copy would leave a mark in its class
         vars(new).update((name, _missing(part)) for name, part in vars(value).items())
-        return new
+        return _noted(new)
     if isinstance(value, Quantity):
         return none_like(value)
+    if isinstance(value, FunctionType):
+        return lambda *given, **named: _missing(value(*given, **named))
     none = complex(np.nan, np.nan) if np.iscomplexobj(value) else np.nan
     return np.full(np.shape(value), none) if isinstance(value, ARRAYS) else UNBOUND
+
+
+def _noted(missing: Any) -> Any:
+    current.get().meant.missing[id(missing)] = missing
+    return missing
 
 
 def way_may_change(f: Callable[..., Any]) -> bool:

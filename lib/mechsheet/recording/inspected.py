@@ -1,15 +1,18 @@
 """What code asks of the type of a value: told of the number, array or text that the worksheet has in its place."""
 
 import ast
+import dataclasses
 import sys
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 import numpy as np
 
 from mechsheet.quantities.arithmetic import is_count
 from mechsheet.quantities.graph import Graph, NotRecorded
-from mechsheet.quantities.perhaps import settled
+from mechsheet.quantities.options import Thing, every
+from mechsheet.quantities.perhaps import Row, settled
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity
 from mechsheet.quantities.refused import is_pythons, of_library
 from mechsheet.quantities.text_column import Texts
@@ -20,9 +23,13 @@ _TYPES = {"bool", "complex", "float", "int", "str", "np.ndarray"}  # which a pat
 
 def _told(ask: Callable[..., Any], x: Any, *of: Any) -> Any:
     """What is asked of a value; not of a number that is Python's own or one of numpy's, where these differ in it."""
-    first, *others = (ask(each, *of) for each in _alike(settled(x)))
+    several = every(settled(x))
+    first, *others = (ask(each, *of) for one in several for each in _alike(one))
     if any(answer != first for answer in others):
-        raise NotRecorded(f"{ask.__name__} of a number that is Python's own or one of numpy's")
+        which = (
+            "one of several of other kinds" if len(several) > 1 else "a number that is Python's own or one of numpy's"
+        )
+        raise NotRecorded(f"{ask.__name__} of {which}")
     return first
 
 
@@ -69,6 +76,12 @@ def _of_numpy(ask: Callable[..., Any]) -> Callable[..., Any]:
     return rule
 
 
+def _of_object(f: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that looks at an object's class, for one of several objects too: of an object with the parts of it."""
+    return lambda one, *given, **named: f(copy(one) if isinstance(one, Thing | Row) else one, *given, **named)
+
+
+OF_OBJECTS = {f: _of_object(f) for f in (dataclasses.replace, dataclasses.asdict, dataclasses.astuple)}
 FUNCTIONS |= {ask: _of_numpy(ask) for ask in (np.isscalar, np.iterable)}
 ASKING = {ask.__name__: lambda x, *of, _ask=ask: _told(_ask, x, *of) for ask in (isinstance, hasattr, callable)}
 CALLS: dict[str, Any] = {"type": _kind, "matched by type": _matched}

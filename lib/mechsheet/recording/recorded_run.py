@@ -305,9 +305,13 @@ class Run(Guarded, OfPositions):
             unit = line.unit if line and not line.arguments else "-"
             number = value.re.value if isinstance(value, Quantity) and is_literal(value) else value
             if any(units.parse(unit).dims) and (type(number) in (int, float) or is_array(number)):
-                self.names[name] = Quantity(self.graph, self.graph.constant(number, unit))
+                self.names[name] = self.in_unit(value, number, unit)
             elif made and (type(value) is float or is_array(value)):
-                self.names[name] = Quantity(self.graph, self.graph.constant(value, units.UNKNOWN))
+                self.names[name] = self.in_unit(value, value, units.UNKNOWN)
+
+    def in_unit(self, value: Any, numbers: Any, unit: str) -> Quantity:
+        """The numbers of a value, in a unit; whoever changes elements of it in place changes those of the value."""
+        return Quantity(self.graph, self.graph.constant(numbers, unit), base=lift(self.graph, value).base)
 
     def declared(self, name: str) -> Formula | None:
         """The line that declares what the present statement binds a name to, which another one may bind anew."""

@@ -37,7 +37,7 @@ from mechsheet.quantities.written import looked_at, seen
 from mechsheet.recording import exactly, scipy_rules, spline_rules
 from mechsheet.recording.choices import total
 from mechsheet.recording.conditions import every, some
-from mechsheet.recording.inspected import ASKING
+from mechsheet.recording.inspected import ASKING, OF_OBJECTS
 from mechsheet.recording.math_rules import MATH, STATISTICS
 from mechsheet.recording.own_modules import followed, is_own
 from mechsheet.recording.per_row import of_rows
@@ -129,6 +129,8 @@ def instead(value: Any) -> Any:
         return drawing
     if isinstance(value, Drawing) and current.get().refuses:
         return Sketch.of(value)
+    if isinstance(value, FunctionType) and value in OF_OBJECTS:
+        return OF_OBJECTS[value]
     room = str(getattr(value, "__module__", ""))
     if (unspoken := _unspoken(value, room)) is not None:
         return unspoken
@@ -338,7 +340,8 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
         if f in _CHOOSING and not of_library(sys._getframe(1)):
             compared(*quantities(args))
         if f in _ARRAYS:
-            return _array(*args, **kwargs) if f is not np.array else copy(_array(*args, **kwargs))
+            array = _array(*args, **kwargs)
+            return copy(array) if f is np.array and kwargs.get("copy", True) else array
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *value = args
             if not has_quantity(value):
@@ -363,7 +366,7 @@ def _array(values: Any, dtype: Any = None, *, copy: Any = None, ndmin: int = 0) 
     if dtype in (None, str, object) and ndmin < 2 and (texts := chosen_among(current.get(), values)) is not None:
         return texts
     array = lift(current.get(), values)
-    array = array if dtype is None else array.astype(dtype)
+    array = array if dtype is None else array.astype(dtype, copy=False)
     return array[(None,) * (ndmin - array.ndim)] if ndmin > array.ndim else array
 
 
