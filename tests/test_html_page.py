@@ -26,7 +26,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg, expression, formula, parts
 from mechsheet.document.shortened import ENDS
 from mechsheet.html import write
-from mechsheet.html.mathml import mathml
+from mechsheet.html.mathml import inner
 from mechsheet.recording import showing
 from mechsheet.run import arguments, html
 from mechsheet.worksheet import inputs
@@ -122,7 +122,7 @@ def put_in(line: parts.Line, known: Numbers) -> str:
     found = {name: x for name in expression.reads(line.formula) if (x := known.at(name, line.position))}
     read = {name: formula.Measure(x / units.parse(unit).factor, unit) for name, (x, unit) in found.items()}
     node = None if line.formula.arguments else expression.substituted(line.formula, read)
-    return mathml(node).replace(">", "><mo>=</mo>", 1) if node else ""
+    return f'<math displaystyle="true"><mo>=</mo>{inner(node)}</math>' if node else ""
 
 
 def closed(svg: str) -> str:
