@@ -25,7 +25,7 @@ from mechsheet.html.frames import Moved
 from mechsheet.html.mathml import symbol
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.memory import names_of
-from mechsheet.recording.record import continued, record, record_every_line
+from mechsheet.recording.record import continued, record
 from mechsheet.worksheet import symbol as symbols
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.check import LITTLE, Check, Summary, checks_of, refuse_open
@@ -87,21 +87,17 @@ def page(sheet: Worksheet, g: Any) -> str:
     namespace = sheet.run(sheet.results, beforehand(g))
     refuse_open(checks_of(namespace))
     parts.values(namespace)  # which tells of what goes by one name
-    fit = dimensions(record_every_line(namespace, sheet), sheet, namespace, registry(namespace)).check()
     if any(isinstance(field, Rows) for field in declared(type(inputs_of(namespace)))):
         with suppress(SheetError):  # how many values are found is not known before the list is
-            text = _page(sheet, namespace, fit, lists=True)
+            text = _page(sheet, namespace, lists=True)
             if len(text.encode()) < _MOST:
                 return text
-    return _page(sheet, namespace, fit, lists=False)
+    return _page(sheet, namespace, lists=False)
 
 
 @np.errstate(all="ignore")  # of ways that the worksheet does not go, as while it is recorded
-def _page(sheet: Worksheet, namespace: dict[str, Any], fit: Check, lists: bool) -> str:
-    """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own.
-
-    Whether the units ``fit`` is told at the top where they do not.
-    """
+def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
+    """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
     cells = _with_checks(_with_fields(by_cell(namespace), sheet, inputs_of(namespace)))
     shown = [part for each in cells.values() for part in each]
     follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
@@ -117,6 +113,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], fit: Check, lists: bool) 
         body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
+    fit = dimensions(follower.recording, sheet, namespace, registry(namespace)).check()
     if fit.residual:
         wrong = f'<p><span class="ms-badge ms-FAIL">mistake</span> {escape(fit.reason)}</p>'
         body = body.replace(_BAR, _BAR + wrong, 1)

@@ -65,7 +65,7 @@ def _source(reader: Reader, node: Node, line: Formula | None, deep: int) -> Sour
     """The angle, or the speed in one, of which a value is a multiple by literals; None where there is none."""
     unit, name = "", reader.names.get(node, "the angle")
     if node.op == "input":
-        unit = reader.unit_of[name]
+        unit = reader.unit_of_input(node)
     elif others := [each for each in reader.declared.get(node, ()) if each is not line]:
         unit, name = others[0].unit, others[0].name
     if unit:

@@ -78,6 +78,10 @@ class Reader:
     def of_unit(self, unit: str) -> int:
         return UNKNOWN if unit == units.UNKNOWN else self.code(units.parse(unit).dims)
 
+    def unit_of_input(self, node: Node) -> str:
+        """The declared unit of an input; of a slider none is known."""
+        return self.unit_of.get(self.names[node], units.UNKNOWN)
+
     def product(self, a: int, b: int, power: float = 1.0) -> int:
         """Code of a quantity times a power of another one."""
         known = self.products.get((a, b, power))
@@ -282,7 +286,7 @@ def _constant(reader: Reader, node: Node) -> Codes:
 
 
 def _input(reader: Reader, node: Node) -> Codes:
-    return reader.of_unit(reader.unit_of[reader.names[node]])
+    return reader.of_unit(reader.unit_of_input(node))
 
 
 def _found(reader: Reader, node: Node) -> Codes:

@@ -44,7 +44,7 @@ def _why(reader: Reader, node: Node, unit: str, line: Formula | None = None) -> 
 def _taken(reader: Reader, node: Node, unit: str, line: Formula | None, deep: int) -> float | None:
     """How many quantities in a unit are added up in a value, less those that are subtracted; None if not known."""
     if node.op == "input":
-        own = reader.unit_of[reader.names[node]]
+        own = reader.unit_of_input(node)
         return 1.0 if own == unit else 0.0 if own in _OTHER and unit == "K" else None
     others = (each for each in reader.declared.get(node, ()) if each is not line)
     if unit == "K" and any(written(each.expression) == 1 for each in others):

@@ -44,7 +44,8 @@ class _Counted(NamedTuple):
     def told(self, node: Node) -> str:
         """The unit of an input, of a constant, or of what another line makes; "" of anything else."""
         if node.op in ("input", "constant"):
-            return self.reader.unit_of[self.reader.names[node]] if node.op == "input" else "".join(node.args)
+            unit = self.reader.unit_of_input(node) if node.op == "input" else "".join(node.args)
+            return "" if unit == units.UNKNOWN else unit
         lines = (line for line in self.reader.declared.get(node, ()) if line is not self.line and not line.mistake)
         return next((line.unit for line in lines if self.reader.places.lines.get(line.name) == node.line), "")
 
