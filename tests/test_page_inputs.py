@@ -365,7 +365,7 @@ def test_a_scene_beside_the_worksheet_is_chosen_from_a_list(
     expect(states).to_contain_text("F = 40.5 kN")
     expect(states).not_to_contain_text("l = 250 mm")
     expect(chosen).to_have_value("0")
-    until(page, lambda: "r=52" in page.url, "the address has not followed")
+    until(page, lambda: page.url.endswith("#r=52&F=40.5"), "the address has not followed")
     page.reload()  # with two inputs in the address
     expect(states).to_contain_text("r = 52 mm", timeout=WITHIN * 1000)
     expect(states).to_contain_text("F = 40.5 kN")
