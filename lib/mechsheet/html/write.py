@@ -100,7 +100,9 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     """The file of a run; what rests on ``lists`` among the inputs follows them at any length, or at their own."""
     cells = _with_checks(_with_fields(by_cell(namespace), sheet, inputs_of(namespace)))
     shown = [part for each in cells.values() for part in each]
-    follower = Follower(record(namespace, sheet, whole=True, every=1, draws=True, lists=lists), Numbers(namespace))
+    recording = record(namespace, sheet, whole=True, every=1, draws=True, lists=lists)
+    fit = dimensions(recording, sheet, namespace, registry(namespace)).check()  # before the page computes with it
+    follower = Follower(recording, Numbers(namespace))
     follower.pair(cells)
     moving = frames.moved(sheet, namespace, cells, follower)
     among = tuple(cleandoc(constant(text)) for cell in sheet.cells for text in standing(cell.lines))
@@ -113,7 +115,6 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
         body = _linked("".join(written))
     if not any(isinstance(part, Title) for part in shown):
         body = _BAR + body
-    fit = dimensions(follower.recording, sheet, namespace, registry(namespace)).check()
     if fit.residual:
         wrong = f'<p><span class="ms-badge ms-FAIL">mistake</span> {escape(fit.reason)}</p>'
         body = body.replace(_BAR, _BAR + wrong, 1)
