@@ -5,7 +5,7 @@ Those that numbers choose are known by which one of several each is.
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
-from operator import and_, index, or_
+from operator import index, or_
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.quantity import Quantity, lift, stack
-from mechsheet.quantities.written import Either, OneOf, Written
+from mechsheet.quantities.written import Either, Number, OneOf, Written
 from mechsheet.worksheet.table import as_texts
 
 _MOST, _LONG = 250, 4000  # texts, and their signs, in the formula of a cell
@@ -26,7 +26,7 @@ class Texts:
     """Texts of the column of that ``name``, those of the rows ``at``: one is `Written`, at all of them Python looks.
 
     The ``column`` is 0 where a text is the exported one, else 1; there is none of texts that are no inputs, of which
-    those ``at`` numbers are chosen. They may be `Written` themselves in a table.
+    those ``at`` numbers are chosen.
     """
 
     ndim, base = 1, None
@@ -107,6 +107,18 @@ class Texts:
         return bool((self == text).any())
 
 
+class Said(Texts):
+    """Texts with numbers in them, one for each row of a table; there is none where a number is none."""
+
+    def __init__(self, graph: Graph, texts: Sequence[str | Written]) -> None:
+        super().__init__("", None, tuple(texts), lift(graph, np.arange(len(texts))))
+        self.known = stack([lift(graph, choice(graph, _exists(graph, text), 0.0, np.nan)) for text in texts])
+
+    @property
+    def same(self) -> Quantity:
+        return self.known
+
+
 def _plain(text: object) -> object:
     return str(text) if isinstance(text, Written) else text
 
@@ -160,28 +172,31 @@ def held_in(graph: Graph, values: NDArray[Any], many: bool) -> Any:
 
 def shown(graph: Graph, column: Any) -> Any:
     """What a table shows as a column, of texts these; of more than a cell can write Python sees which they are."""
-    if (said := _said(graph, column)) is not None:
-        return said
     if isinstance(column, Texts) and column.column is not None:
         return column
     found = None if isinstance(column, Quantity | str | Written) else among(graph, column)
     if found is None:
         words = isinstance(column, list | tuple) and any(isinstance(each, Written) for each in column)
+        if words and graph.thin == 1 and len(column) <= _SAID and all(isinstance(x, str | Written) for x in column):
+            return Said(graph, column)
         return shown(graph, [*map(str, column)]) if words else column
     if found[1].re.op != "constant" and (len(found[0]) > _MOST or sum(map(len, found[0])) > _LONG):
         return shown(graph, Texts("", None, *found).seen())
     return Texts("", None, *found)
 
 
-def _said(graph: Graph, column: Any) -> Texts | None:
-    """Texts with numbers in them, one for each row, which is none where a number is none; of all else nothing."""
-    if not isinstance(column, list | tuple) or graph.thin > 1 or not 0 < len(column) <= _SAID:
-        return None
-    if not all(isinstance(each, str | Written) for each in column) or among(graph, column) is not None:
-        return None
-    known = [[np.isfinite(Quantity(graph, node)) for node in getattr(each, "nodes", ())] for each in column]
-    rows = (choice(graph, reduce(and_, holds), k, np.nan) if holds else k for k, holds in enumerate(known))
-    return Texts("", None, tuple(column), stack([lift(graph, row) for row in rows]))
+def _exists(graph: Graph, text: str | Written) -> Any:
+    """Whether there are all numbers that stand in a text."""
+    holds: Any = True
+    for part in text.parts if isinstance(text, Written) else ():
+        match part:
+            case Number(value):
+                holds = holds & np.isfinite(value)
+            case OneOf(at):
+                holds = holds & np.isfinite(at)
+            case Either(first, then, otherwise):
+                holds = holds & choice(graph, first, _exists(graph, then), _exists(graph, otherwise))
+    return holds
 
 
 def _either(graph: Graph, holds: Quantity, x: Among | None, y: Among | None) -> Among | None:

@@ -62,7 +62,7 @@ class Run(Guarded, OfPositions):
         self.looked: dict[str, tuple[Guard, ...]] = {}  # by name: the guards that its value rests on
         self.chosen: dict[Node, frozenset[Node]] = {}
         self.lost: dict[str, NotRecorded] = {}  # names that have no value here, and why
-        self.aliases: list[tuple[set[str], Memory, NotRecorded]] = []  # names kept that may hold what others change
+        self.aliases: list[tuple[set[str], Memory, set[int], NotRecorded]] = []  # names kept, and what may change them
         self.passing: dict[str, Any] = {}  # of these, lines whose numbers are others at the next run
         self.want, self.lines, self.unnamed = want, lines, unnamed
         self.rebound: Sequence[Formula] = ()  # lines of the present cell whose names others bind anew
@@ -234,16 +234,17 @@ class Run(Guarded, OfPositions):
             rests_on = [*self.recording.inputs.values()] if differs else self.leaves(facts, under, codes, before)
             gives = {name: self.namespace.get(name) for name in final}
             of_later = Memory.sharing(gives, map(self.namespace.get, self.to_change))  # which are others by then
-            self.keep(stage, touched, final - of_later, self.why(error, reads), rests_on)
+            reason = self.why(error, reads)
+            self.keep(stage, touched, final - of_later, reason, rests_on)
             changed_now = before.changed() | graph.meant.disturbed() | (before.mutable() if may_change else set())
             beside = before.named(self.names, changed_now)
             beside = beside.union(*(names for names, _ in self.aliasing(changed_now, unseen)))
             if not self.to_change.isdisjoint(touched):  # it may be another name of what it reads, and changes later
                 reached = Memory.sharing(self.names, map(self.names.get, under))
             beside = (beside | others | reached).difference(touched)
-            self.lose(stage, beside | of_later, later | of_later, self.why(error, reads))
+            self.lose(stage, beside | of_later, later | of_later, reason)
             before.add(self.values([*touched, *beside]))  # what is kept is another object than what had several names
-            self.aliases.append(({*touched, *beside}, before, self.why(error, reads)))
+            self.aliases.append(({*touched, *beside}, before, before.containers(), reason))
             stage.finish(lambda x: x)
             return
         ways = may_change and bool(graph.looked)  # of which others change more
@@ -376,8 +377,8 @@ class Run(Guarded, OfPositions):
 
     def aliasing(self, changed: set[int], unseen: Set[str] = frozenset()) -> Iterator[tuple[set[str], NotRecorded]]:
         """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
-        for names, memory, reason in self.aliases if changed or unseen else ():
-            if not (memory.containers().isdisjoint(changed) and names.isdisjoint(unseen)):
+        for names, _, containers, reason in self.aliases if changed or unseen else ():
+            if not (containers.isdisjoint(changed) and names.isdisjoint(unseen)):
                 yield {name for name in names if Memory(self.values([name]), self.names).containers()}, reason
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
