@@ -21,6 +21,7 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.table import Column, Table
 from mechsheet.worksheet.terms import terms
+from mechsheet.worksheet.ties import greatest
 
 WITHIN = 64  # roundings times the condition number that an error may be
 _AS_PRINTED = ("_printed", "_listing")  # forms of the documents that lose more, to which the worksheets' own compare
@@ -91,7 +92,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
     for name, value in results.items():
         steepest = (np.max(np.abs(motion[part]), axis=0).reshape(len(at), -1) for part in value.parts)
         moves = at * np.sqrt(sum(side**2 for side in steepest))
-        size, k = float(np.nanmax(np.abs(names[name]))), _greatest(moves.sum(0))
+        size, k = float(np.nanmax(np.abs(names[name]))), greatest(moves.sum(0))
         kappa = float(moves[:, k].sum() / size) if size else np.nan
         zero = numbers.is_rounding(names[name], terms(lines[name].expression, names)) or np.isinf(proved.get(name, 0))
         if not kappa * EPS < 1 or zero:
@@ -101,7 +102,7 @@ def _conditions(number: str, path: Path, text: bytes) -> tuple[Table, Any]:
         off = (arithmetic.error(own[k], true, turn) for k, true in truths.get(name, {}).items())
         error = float(max(off)) if name in truths else proved[name]
         by = _DERIVED if name in truths else _PROVED if np.isfinite(error) else ""
-        rows.append((name, max(1.0, kappa), each[_greatest(moves[:, k])], error / size, by))
+        rows.append((name, max(1.0, kappa), each[greatest(moves[:, k])], error / size, by))
     rows.sort(key=lambda row: -round(np.log10(row[1]), 6))  # those alike as they stand in the document
     found, conditions, blamed, errors, against = (np.array(column) for column in zip(*rows, strict=True))
     errors = np.maximum(errors, EPS)
@@ -135,8 +136,3 @@ def _proved(recording: Recording, namespace: Mapping[str, Any], names: Collectio
         zero = bool(parts) and all(part.exception for part in parts)
         found[name] = np.inf if zero else off if np.isfinite(off) else np.nan
     return found
-
-
-def _greatest(x: Any) -> int:
-    """Which number is the greatest, of those that are but for rounding the first."""
-    return int(np.argmax((x >= (1 - 1e-9) * np.max(x)) | np.isnan(x)))

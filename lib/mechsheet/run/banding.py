@@ -27,6 +27,7 @@ from mechsheet.worksheet.lines import Formula, registry
 from mechsheet.worksheet.no_inputs import inputs_of
 from mechsheet.worksheet.scene import Scene
 from mechsheet.worksheet.table import Table
+from mechsheet.worksheet.ties import greatest, greatest_first
 
 _CASES = 1000  # of Monte Carlo
 _WIDE = 5.0  # times the worst case of the slopes: wider bounds tell nothing
@@ -219,9 +220,9 @@ def _of_table(table: Table, banded: Sequence[Banded]) -> Iterator[str]:
 
 def _mattering(line: Formula, band: Band, by: Mapping[str, Tolerance]) -> Iterator[str]:
     """The inputs that move a result most where its worst case is greatest, and by how much."""
-    k = int(np.argmax(np.nan_to_num(band.worst).reshape(-1)))
+    k = greatest(np.nan_to_num(band.worst))
     moves = np.abs(band.moves.reshape(len(by), -1)[:, k]) / units.parse(line.unit).factor
-    for i in np.argsort(-moves, kind="stable")[: min(_MOST, np.count_nonzero(moves))]:
+    for i in greatest_first(moves)[: min(_MOST, int(np.count_nonzero(moves)))]:
         yield f"{[*by][i]} (± {off(moves[i])}{numbers.suffix(line.unit)})"
 
 

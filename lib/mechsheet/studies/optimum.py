@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mechsheet.worksheet import numbers
+from mechsheet.worksheet.ties import greatest
 
 Array = NDArray[np.float64]
 
@@ -96,7 +97,7 @@ def _second(here: At, holding: Sequence[int], rows: Array, factors: Array, names
         return False, f"to the second order {WORSE}"
     if free.size:
         most, way = _most(free, H)
-    moved = {x: d for x, d in zip(names, way * np.sign(way[np.argmax(np.abs(way))]), strict=True) if abs(d) > 0.01}
+    moved = {x: d for x, d in zip(names, way * np.sign(way[greatest(np.abs(way))]), strict=True) if abs(d) > 0.01}
     several = ", ".join(f"{x} by {numbers.significant(d, 2)}" for x, d in moved.items())
     along = f"{several} of the ranges" if len(moved) > 1 else "".join(moved)
     better = bool(free.size) and most > _HOLDS

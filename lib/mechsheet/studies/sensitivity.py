@@ -29,6 +29,7 @@ from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.shown import Charted
 from mechsheet.worksheet.table import Column, Table
+from mechsheet.worksheet.ties import greatest, greatest_first
 
 Array = NDArray[np.float64]
 Position = int | Literal["least", "greatest"]
@@ -97,7 +98,7 @@ class Sensitivity:
                     f"position {as_given(at)} of {name} must be 0..{values.size - 1}, 'least' or 'greatest'"
                 )
             return int(at)
-        return int(np.argmin(values) if at == "least" else np.argmax(values))
+        return greatest(-values if at == "least" else values)
 
     def table(self, number: str, title: str, name: str, at: Position = "least") -> Table:
         """Derivatives of a result at one position, the largest elasticity first."""
@@ -144,10 +145,9 @@ class Sensitivity:
 
     def _order(self, name: str, at: Position) -> list[int]:
         """Inputs by their elasticity at a position, the largest first and those without one last; of no result too."""
-        slopes = self.slopes[name].reshape(len(self.inputs), -1)[:, self.position(name, at)]
-        size = np.abs(slopes * list(self.inputs.values()))
-        order: list[int] = np.argsort(-np.nan_to_num(size, nan=-1.0), kind="stable").tolist()
-        return order
+        k, sizes = self.position(name, at), np.abs(list(self.inputs.values()))
+        slopes, errors = (x.reshape(len(self.inputs), -1)[:, k] for x in (self.slopes[name], self.errors[name]))
+        return greatest_first(np.abs(slopes) * sizes, errors * sizes)
 
 
 @dataclass(frozen=True)
