@@ -118,6 +118,19 @@ def click_until(page, shown):
     until(page, seen, "a click on a formula opens nothing")
 
 
+def click_delete(cell):
+    """Click the button that a cell has while the pointer is on it: the page may move the cell away from under it."""
+
+    def clicked():
+        cell.hover()
+        with suppress(TimeoutError):
+            cell.get_by_test_id("delete-button").click(timeout=1000)
+            return True
+        return False
+
+    until(cell.page, clicked, "the button to delete a cell does not stay")
+
+
 def edit_in_place(editor):
     """Lines edited where they stand, seen in the file and in the page, and taken back."""
     page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
@@ -973,8 +986,7 @@ def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chrom
     page, told = opened.page, opened.page.locator(".ms-written")
     cells = page.locator(".marimo-cell")
     count, needed = cells.count(), cells.filter(has=page.locator("#line-M_S"))
-    needed.hover()
-    needed.get_by_test_id("delete-button").click()
+    click_delete(needed)
     words = "M, M_S, phi go, needed in section 2.1, 3, table 1 and figure 1: delete once more to let it go"
     expect(told).to_have_text(words)
     expect(cells).to_have_count(count)
@@ -1000,9 +1012,8 @@ def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chrom
     text.click(button="right")
     page.get_by_role("menuitem", name="Delete", exact=True).click()
     expect(cells).to_have_count(count - 1)  # nothing needs a text
-    needed.hover()
-    needed.get_by_test_id("delete-button").click()
+    click_delete(needed)
     page.wait_for_timeout(1000)
     expect(cells).to_have_count(count - 1)
-    needed.get_by_test_id("delete-button").click()
+    click_delete(needed)
     expect(cells).to_have_count(count - 2)
