@@ -136,6 +136,15 @@ TOLD = [
     (SPACE + "a, b = S(x=[1.0]), S(x=[g.a])\nc = a if g.F > 2 else b\nc.x.append(5.0)", ("sum(a.x)", "sum(b.x)")),
 ]  # fmt: skip
 
+# an array of what is a whole number on one way and none on another
+AS_WHOLE = [
+    ("f = max(1.0, round(g.F))\nb = np.array([f, 3])\nb[0] = g.a * 0.75", ("b[0]",)),
+    ("f = max(1.0, round(g.F - 2))\nb = np.array([f, 3])\nb[0] = g.a * 0.75", ("b[0]",)),
+    ("f = round(g.F) if g.F > 2 else 2.0\nb = np.array([f, f])\nb[1] = g.a * 0.75", ("b[1]",)),
+    ("f = 2.0 if g.F > 3 else 1 if g.F > 2 else 0.5\nb = np.array([f + 1, f])\nb[1] = g.a * 0.75", ("b[1]",)),
+    ("f = min(2, g.F)\nb = np.full_like([f, f], 0.75)", ("b[0]",)),
+]
+
 UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.a]]))"
 KEPT = [  # what is taken of a statement that is not followed may have another name, by which it is changed
     (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nT[0][0] = g.F", ("c[0]",)),
@@ -158,7 +167,7 @@ def each_alone(cases: list[tuple[str, tuple[str, ...]]]) -> list[tuple[str, str]
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *TOLD, *KEPT, *AS_FLOAT]))
+@pytest.mark.parametrize(("lines", "shown"), each_alone([*FOLLOWED, *TOLD, *KEPT, *AS_FLOAT, *AS_WHOLE]))
 def test_what_is_not_changed_now_changes_for_other_inputs(lines: str, shown: str, tmp_path: Path) -> None:
     """It stood with the document's number for all inputs where only another one was changed: not even told."""
     assert_never_stale(f"{lines}\ny = {shown} * 1.0", tmp_path)

@@ -119,6 +119,15 @@ def is_whole(x: Quantity) -> bool:
     return _is_whole(x.re, x.graph.whole)
 
 
+def cuts(x: Quantity) -> bool:
+    """Whether an array of these numbers has whole ones alone, to which it cuts whatever is set in it."""
+    if is_whole(x):
+        return True
+    if _is_whole(x.re, x.graph.whole, any_way=True):
+        raise NotRecorded("an array of what is a whole number on one way and none on another cuts what is set in it")
+    return False
+
+
 def whole(x: Quantity) -> Quantity:
     """What Python has as a whole number: a text shows it without decimals."""
     x.graph.whole.add(x.re)

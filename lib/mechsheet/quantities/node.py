@@ -237,9 +237,14 @@ def is_number(node: Node, number: float) -> bool:
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
 
 
-def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset()) -> bool:
-    """Whether Python has a whole number there, where it has one at all; of some it is known, or they are as good."""
-    if node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any():  # as of most: none looks further
+def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset(), any_way: bool = False) -> bool:
+    """Whether Python has a whole number there, where it has one at all; of some it is known, or they are as good.
+
+    With ``any_way`` if it has one on any way of a condition.
+    """
+    if (
+        not any_way and node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any()
+    ):  # as of most: none looks further
         return False
     waiting, met, turned = [node], set[Node](), dict[Node, tuple[Node, Node]]()
     while waiting:
@@ -259,9 +264,12 @@ def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset()) -> 
                 waiting.append(part.args[0])
             case "join":
                 waiting += part.args[0]
-            case "where":
-                waiting += (way for way in part.args[1:] if not (way.op in LEAVES and np.isnan(way.value).all()))
-            case "add" | "sub" | "mul" | "neg" | "mod" | "max" | "min" | "abs":
+            case "where" | "max" | "min":
+                ways = [way for way in part.operands if way.op not in LEAVES or not np.isnan(way.value).all()]
+                ways = ways[part.op == "where" :]
+                if not (any_way and part.shape == () and any(is_whole(way, known) for way in ways)):
+                    waiting += ways
+            case "add" | "sub" | "mul" | "neg" | "mod" | "abs":
                 waiting += part.args
             case _:
                 return False

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet.quantities import polynomial_rules, text_column
-from mechsheet.quantities.arithmetic import absolute, angle, choice, conjugate, is_whole, rounded, trunc
+from mechsheet.quantities.arithmetic import absolute, angle, choice, conjugate, cuts, is_whole, rounded, trunc
 from mechsheet.quantities.array_rules import (
     blocks,
     cross,
@@ -239,7 +239,7 @@ def _piecewise(graph: Graph, x: Any, conditions: Any, functions: Any) -> Any:
     values = [f(x) if callable(f) else f for f in functions]
     rest = values.pop() if len(values) > len(conditions) else 0
     chosen = _selected(graph, list(conditions)[::-1], values[::-1], rest)  # of several the last one counts
-    return chosen.astype(int) if is_whole(lift(graph, x)) else chosen
+    return chosen.astype(int) if cuts(lift(graph, x)) else chosen
 
 
 def _chosen(graph: Graph, condition: Any, *both: Any) -> Any:
@@ -272,7 +272,7 @@ def _near(graph: Graph, x: Any, y: Any, *, rel_tol: float = 1e-9, abs_tol: float
 def _like(value: Any) -> Callable[..., Any]:
     def operation(graph: Graph, x: Any, *given: Any, dtype: Any = None) -> Any:
         x = lift(graph, x)
-        return lift(graph, *(given or (value,))).astype(dtype or (int if is_whole(x) else x.dtype)).like(x)
+        return lift(graph, *(given or (value,))).astype(dtype or (int if cuts(x) else x.dtype)).like(x)
 
     return operation
 

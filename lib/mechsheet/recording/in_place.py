@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice, is_count, is_whole, only_where
+from mechsheet.quantities.arithmetic import choice, cuts, is_count, only_where
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
@@ -42,7 +42,7 @@ def _put(old: Quantity, key: Any, value: Any) -> Any:
     new = lift(old.graph, value)
     if not has_quantity([key]):
         old = of_now(old)
-    new = new.astype(int) if is_whole(old) else new
+    new = new.astype(int) if cuts(old) else new
     chosen = _at(old, places, new) if (places := _by_places(old, key)) else _where(old, key, new)
     return joined([old, new], _placed, plain(key)) if chosen is None else chosen
 
