@@ -7,7 +7,7 @@ import pytest
 from own_worksheet import own
 from playwright.sync_api import Page, expect
 
-from mechsheet.html import write
+from mechsheet.html import javascript, write
 from mechsheet.page import lines
 from mechsheet.recording import left_over
 from mechsheet.recording.record import record
@@ -30,6 +30,7 @@ ENDED = {
     "assert": "assert v < 6",
     "stop": "mo.stop(v > 6)",
 }
+ENDS = "if(inputs.F>3)throw Error('as of a fault in here');"
 READ = """() => {
   dispatchEvent(new Event("beforeprint"));
   return Object.fromEntries([...document.querySelectorAll(".ms-line[id]")].map(line => {
@@ -54,6 +55,16 @@ def test_a_sum_with_what_a_module_or_a_group_has_is_written(line: str, tmp_path:
     lines = "from mechsheet import RRRGroup, units\ngroup = RRRGroup(0j, x, 4.0, 5.0, 1)\nd = "
     sheet = own(tmp_path, f"{lines}{line}  # [-] knee")
     assert "knee" in write.page(sheet, sheet.inputs())
+
+
+def test_a_page_that_ends_with_an_error_shows_nothing_of_before(blank: Page, tmp_path: Path, monkeypatch) -> None:
+    made, begin = javascript.module, "function evaluate(inputs){"
+    monkeypatch.setattr(javascript, "module", lambda *given: made(*given).replace(begin, f"{begin}{ENDS}"))
+    sheet = own(tmp_path, "v = 2.0 * g.F  # [-] twice")
+    value, why = shown(blank, tmp_path / "a.html", sheet, "F=4")["v"]
+    assert not value and why and why in (blank.locator(".ms-state").text_content() or "")
+    blank.locator("#input-F").fill("1.5")
+    assert blank.evaluate(READ)["v"] == ["3", ""]
 
 
 def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_path: Path) -> None:

@@ -134,6 +134,26 @@ def test_what_python_counts_is_empty_for_other_lengths_and_says_why(blank: Page,
             assert why.startswith("line ") == (counted in each), (expression, each)
 
 
+def test_at_its_own_length_alone_a_list_of_another_one_empties_what_rests_on_it(blank: Page, tmp_path: Path) -> None:
+    """As in a large page; one of fewer rows ended the page with an error, which left all numbers as they were."""
+    numbered = [expression for expression in FOLLOWED if not expression.startswith("find(")]
+    beside = "g.a * 2.0"
+    sheet, recording = recorded(tmp_path, [*numbered, beside], lists=False)
+    script = javascript.module(recording, parts_of(recording, [*numbered, beside]))
+    lengths, told = {"F": 3, "points": len(CURVE)}, 0
+    for each, found in zip(GIVEN, evaluated(blank, script, [leaves(sheet, given) for given in GIVEN]), strict=True):
+        others = {name for name, own in lengths.items() if len(each.get(name, range(own))) != own}
+        for k, expression in enumerate(numbered):
+            read = {
+                name for name, signs in {"F": "F", "points": "xyp"}.items() if not set(signs).isdisjoint(expression)
+            }
+            why = found["gaps"].get(f"{k} 0", "")
+            assert not why or (found["values"][f"{k} 0"] is None and why.split(" ")[0] in read & others)
+            told += bool(why)
+        assert found["values"][f"{len(numbered)} 0"] == 2 * each.get("a", 0.75)
+    assert told > 100
+
+
 def test_rows_that_a_text_alone_counts_are_the_worksheets_own_where_none_are_given(blank: Page, tmp_path: Path) -> None:
     path, expression = tmp_path / "own.py", ["[2 * p.x for p in g.points]"]
     named = SHEET.replace("        x: float", "        name: str  # label\n        x: float").replace(
@@ -160,7 +180,7 @@ def parts_of(recording: Recording, expressions: Collection[str]) -> dict[str, No
     return {f"{k} {n}": part for k, value in enumerate(values) for n, part in enumerate(value.parts)}
 
 
-def recorded(tmp_path: Path, expressions: Collection[str]) -> tuple[cells.Worksheet, Recording]:
+def recorded(tmp_path: Path, expressions: Collection[str], lists: bool = True) -> tuple[cells.Worksheet, Recording]:
     path, lines = tmp_path / "own.py", list[str]()
     for k, expression in enumerate(expressions):
         if expression.startswith("find("):
@@ -168,10 +188,10 @@ def recorded(tmp_path: Path, expressions: Collection[str]) -> tuple[cells.Worksh
             expression = f"y_{k}_found.value"
         lines.append(f"y_{k} = {expression}  # [-] line")
     path.write_text(SHEET.replace("LINES", "\n    ".join(lines)), encoding="utf-8")
-    return recorded_file(path)
+    return recorded_file(path, lists)
 
 
-def recorded_file(path: Path) -> tuple[cells.Worksheet, Recording]:
+def recorded_file(path: Path, lists: bool = True) -> tuple[cells.Worksheet, Recording]:
     sheet = cells.load(path)
     names = sheet.run(sheet.results, {"g": sheet.inputs()})
-    return sheet, record({**names, "__file__": sheet.path}, every=1, draws=True, lists=True)
+    return sheet, record({**names, "__file__": sheet.path}, every=1, draws=True, lists=lists)

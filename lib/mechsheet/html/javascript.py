@@ -20,7 +20,7 @@ from mechsheet.worksheet.equations import longest_step
 
 _NUMBERS, _FIND, _SOLVE, _BETWEEN = "numbers.js", "find.js", "solve.js", "between.js"
 _COUNTED = "its elements are not known for this number of rows"
-_WORDS = "I NaN do for if in let new of p i try var out"
+_WORDS = "G I NaN do for if in let new of p i try var out"
 
 
 def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
@@ -59,13 +59,15 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
     scope = Scope(program, {})
     scope.write(dict.fromkeys([*results, *conditions, *looked]))
 
-    own = ",".join(f"{names[n]}:{_own(n)}" for n in scope.names if n.op == "input")
+    inputs = [node for node in scope.names if node.op == "input"]
+    own = ",".join(f"{names[node]}:{_own(node)}" for node in inputs)
+    all_there = "".join(f",{names[n]}:rows_of(G[{names[n]}],{n.size})" for n in inputs if _has_own_length(n))
     values = ",".join(f"{_key(key)}:{_result(scope, node)}" for key, node in wanted.items())
     verdicts = ",".join(f"{json.dumps(key)}:{scope.solved[node.args[0]]}" for key, node in found.items())
     lines = [
         *(f"const {name}={text};" for text, name in program.constants.items()),
         f"const own={{{own}}};",
-        "function evaluate(inputs){const I={...own,...inputs};",
+        f"function evaluate(inputs){{const G={{...own,...inputs}},I={{...G{all_there}}};",
         *scope.lines,
         f"const out={{values:{{{values}}},gaps:{{}},guards:[],found:{{{verdicts}}}}};",
         *_told(recording, scope, wanted, found),
@@ -80,6 +82,11 @@ def runtime(*files: str) -> str:
     """Texts of files beside this one, without indents, empty lines, and comments that begin with //."""
     texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]
     return "\n".join(line.strip() for text in texts for line in text.splitlines() if line.strip()[:2] not in ("", "//"))
+
+
+def _has_own_length(node: Node) -> bool:
+    """Whether it is a list that is followed at its own length alone."""
+    return node.op == "input" and bool(node.shape) and not node.stretches
 
 
 def _own(node: Node) -> str:
@@ -130,9 +137,9 @@ def _reason(recording: Recording, scope: Scope, node: Node) -> tuple[str, str] |
     if node.op == "exported":
         why = next((gap.reason for gap in recording.gaps if gap.line == node.line), "it is not recorded")
         return program.conditions[node.args], f"line {node.line}: {why}"
-    if node.op == "input" and node.shape and not node.stretches:
-        name = next(name for name, own in recording.inputs.items() if own is node).partition(".")[0]
-        return f"{program.inputs[node]}.length=={node.size}", f"{name} has more or fewer rows"
+    if _has_own_length(node):
+        name = next(name for name, own in recording.inputs.items() if own is node)
+        return f"G[{json.dumps(name)}].length=={node.size}", f"{name.partition('.')[0]} has more or fewer rows"
     if node in program.conditions:
         return program.conditions[node], f"line {node.line}: {_COUNTED}"
     if node.op == "sized":

@@ -76,6 +76,7 @@ function move(name, at) {
   moving.get(name).at = at;
   if (state.refused) return showMoved(name);
   state.results = computed();
+  if (!state.results) return refresh();
   told.shown.forEach((spec, n) => {
     if (!spec.slid?.includes(name) || spec.control) return;
     const own = !state.changed.size && !spec.slid.some(isSlid);

@@ -119,6 +119,9 @@ function joined(parts, shapes, axis) {
   return a;
 }
 
+// A list of which so many rows are taken: those that are not there are no numbers.
+const rows_of = (a, n) => (a.length < n ? all_of(a, nothing(n - a.length)) : a);
+
 const stacked = (parts, shapes, axis) =>
   joined(parts, shapes.map(shape => [...shape.slice(0, axis), 1, ...shape.slice(axis)]), axis);
 

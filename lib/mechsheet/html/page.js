@@ -9,6 +9,7 @@ const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
+const FAILED = "the page ends with an error for these inputs: open the worksheet itself";
 const DRAWN = new Set(["chart", "drawing", "numbers"]);
 const MOVES_NOT = "as in the document, for its own inputs only";
 const state = {changed: new Set(), refused: false, results: null, strange: []};
@@ -176,15 +177,15 @@ function tell(element, {kind, word, compared, reason, part = NaN}) {
 function refresh() {
   const {si, changed, errors} = readInputs();
   told.inputs.fields.forEach(({name}, n) => mark(told.inputs.fields[n], changed.has(name), errors.get(name) ?? ""));
-  Object.assign(state, {changed, refused: errors.size > 0});
-  const own = !changed.size && !errors.size;
-  state.si = si;
+  Object.assign(state, {changed, si});
   state.results = errors.size ? null : computed();
   if (state.results && ended()) state.results = computed();
+  state.refused = !state.results;
+  const own = !changed.size && !errors.size, why = errors.size ? "an input cannot be used" : FAILED;
   told.shown.forEach((spec, n) => {
     const at = spec.kind === "check" ? (_, f) => f() : soon; // the checks are summed up
     if (own && !spec.control && spec.kind !== "moved" && !spec.slid?.some(isSlid)) at(n, () => showFirst(n));
-    else if (errors.size) at(n, () => empty(spec, shownBy[n], "an input cannot be used"));
+    else if (state.refused) at(n, () => empty(spec, shownBy[n], why));
     else if (spec.kind !== "moved" && !spec.control) at(n, () => showOne(spec, n));
   });
   [...moving.keys()].forEach(showMoved);
@@ -219,8 +220,15 @@ function showNow(spec, element) {
 // Why the worksheet would show something else; undefined where it would not.
 const broken = (spec, results) => spec.guards?.filter(([key]) => !results.values[key]).map(([key, why]) => results.gaps[key] ?? why)[0];
 
-// What the page computes for its inputs and the positions of its sliders.
-const computed = () => evaluate({...state.si, ...slid()});
+// What the page computes for its inputs and the positions of its sliders; nothing where that ends with an error.
+function computed() {
+  try {
+    return evaluate({...state.si, ...slid()});
+  } catch (error) {
+    console.error(error);
+    return null;
+  }
+}
 
 function gapOf(spec, results) {
   const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
@@ -325,9 +333,9 @@ function say(changed, errors) {
   const names = told.inputs.fields.filter(field => changed.has(field.name)).map(field => field.name).join(", ");
   const text = errors.size
     ? `not computed: ${[...errors.values()][0]}`
-    : changed.size ? [`changed: ${names}`, ...lacking(state.results)].join("; ") : "as in the document";
+    : state.refused ? FAILED : changed.size ? [`changed: ${names}`, ...lacking(state.results)].join("; ") : "as in the document";
   bar.querySelector(".ms-state").innerHTML = inWords(escaped([text, ...state.strange].join("; ")));
-  document.body.classList.toggle("ms-stopped", errors.size > 0);
+  document.body.classList.toggle("ms-stopped", state.refused);
   bar.querySelector(".ms-back").hidden = !changed.size && !errors.size;
   bar.querySelector(".ms-save").hidden = !changed.size || Boolean(errors.size);
 }
