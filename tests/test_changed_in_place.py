@@ -145,6 +145,25 @@ AS_WHOLE = [
     ("f = min(2, g.F)\nb = np.full_like([f, f], 0.75)", ("b[0]",)),
 ]
 
+ARRAYS = "A, B = np.array([4.0, 2.0]), np.array([1.0, 6.0])\n"
+MATRIX = "M = np.array([[1.5, 2.0], [2.8, 2.0], [4.0, 2.0]])\n"
+FOUND = "for r in {}:\n    if r[0] > g.F:\n        break\n"
+TOLD += [  # arrays of which a condition tells which one is meant, and one of them is changed, by whatever name
+    *((f"{ARRAYS}{chosen}\n{change}", ("r[0]", "A[0]", "B[0]")) for change in (
+        "A[0] = g.a", "B[0] = 7.0", "A += 1.0", "A[A > 3] = g.a", "r[0] = g.a", "r *= 2",
+    ) for chosen in (
+        "r = A if g.F > 3 else B", "r = B\nif g.F > 3:\n    r = A", "r = [A, B, A, B][g.k]",
+        "r = min((A, B), key=lambda v: abs(v[0] - g.F))", FOUND.format("(A, B)").replace(">", "<"),
+        "def f(u, v):\n    return u if g.F > 3 else v\nr = f(A, B)",
+    )),
+    (MATRIX + "r = M[0] if g.F < 2 else M[1]\nM[1] = M[1] * max(g.a, 1)", ("r[1]",)),
+    ("M = np.outer([1.5, 2.8], [1.0, g.F])\nr = [M[0], M[1]][int(g.F > 3)]\nr[1] = max(r[1], g.a)", ("M[0][1]",)),
+    (MATRIX + FOUND.format("M") + "r[1] = g.a", ("M[0][1]", "M[:, 1].sum()")),
+    *((f"{TABLE}{FOUND.format('T')}{change}", ("T[0][1]", "sum(p[1] for p in T)", "r[1]")) for change in (
+        "r[1] = g.a", "if g.a > 1:\n    r[1] = 9.0", "T[0][1] = g.a", "r.append(g.a)",
+    )),
+]  # fmt: skip
+
 UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.a]]))"
 KEPT = [  # what is taken of a statement that is not followed may have another name, by which it is changed
     (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nT[0][0] = g.F", ("c[0]",)),

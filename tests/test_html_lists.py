@@ -140,13 +140,11 @@ def test_at_its_own_length_alone_a_list_of_another_one_empties_what_rests_on_it(
     beside = "g.a * 2.0"
     sheet, recording = recorded(tmp_path, [*numbered, beside], lists=False)
     script = javascript.module(recording, parts_of(recording, [*numbered, beside]))
-    lengths, told = {"F": 3, "points": len(CURVE)}, 0
+    lengths, signs_of, told = {"F": 3, "points": len(CURVE)}, {"F": "F", "points": "xyp"}, 0
     for each, found in zip(GIVEN, evaluated(blank, script, [leaves(sheet, given) for given in GIVEN]), strict=True):
         others = {name for name, own in lengths.items() if len(each.get(name, range(own))) != own}
         for k, expression in enumerate(numbered):
-            read = {
-                name for name, signs in {"F": "F", "points": "xyp"}.items() if not set(signs).isdisjoint(expression)
-            }
+            read = {name for name, signs in signs_of.items() if not set(signs).isdisjoint(expression)}
             why = found["gaps"].get(f"{k} 0", "")
             assert not why or (found["values"][f"{k} 0"] is None and why.split(" ")[0] in read & others)
             told += bool(why)

@@ -257,7 +257,7 @@ def element(container: Any, key: Any) -> Any:
                 return container[key.seen().item()]  # as above
             raise IndexError(f"no element {key.value}")
         if all(map(is_there, values.values())):
-            return refused(_at_key(values, key, np.nan))
+            return refused(one_of(_at_key(values, key, np.nan), *values.values()))
         row = _row_at(values, key)
     if row is not None:
         return refused(row)

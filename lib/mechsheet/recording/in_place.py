@@ -209,7 +209,8 @@ def outside(value: Any) -> Any:
 def former(values: list[Any]) -> list[Any]:
     """Arrays before what changes them, for who looks behind that whether they are known still."""
     arrays = [owner(array) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
-    return [weakref.ref(each) for array in arrays for each in (array, *either_of(array))]
+    every = (each for array in arrays for each in (array, *either_of(array)))
+    return [weakref.ref(each) for each in every if not isinstance(each, list)]
 
 
 def left(arrays: list[Any]) -> None:

@@ -17,10 +17,11 @@ from mechsheet.quantities.arithmetic import imaginary, is_count, none_like
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded, current
 from mechsheet.quantities.lengths import turning
 from mechsheet.quantities.node import Loop, Node, free_of
-from mechsheet.quantities.quantity import Quantity, has_quantity, lift
+from mechsheet.quantities.quantity import Quantity, has_quantity, lift, owner
 from mechsheet.quantities.refused import Turn, is_pythons, note, on_ways, unless
 from mechsheet.recording.choices import ARRAYS, NUMBERS, UNBOUND, is_condition, is_there, part_of
 from mechsheet.recording.in_place import of_now
+from mechsheet.recording.memory import one_of
 
 
 def iterated(turn: FunctionType, items: Any, item: int | None, *state: Any) -> Any:
@@ -167,6 +168,11 @@ def _followed(turn: Callable[..., Any], items: Any, item: int | None, *state: An
     repeated = _repeated(turn, rest, item, first, last, looked)
     if repeated is None and item is not None and isinstance(rest, list | tuple):
         repeated = _one_by_one(turn, rest, item, first, looked)
+    if repeated and item is not None:
+        rows = [*items] if isinstance(items, list | tuple) else [items]
+        owners = {id(owner(row)) for row in rows}
+        may_be = [n == item or id(owner(x)) in owners for n, x in enumerate(state)]
+        return tuple(one_of(x, *rows) if may else x for x, may in zip(repeated, may_be, strict=True))
     return repeated or state
 
 

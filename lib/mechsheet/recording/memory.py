@@ -131,7 +131,9 @@ class Memory:
                 continue
             known = len(held), len(beneath)
             for part, hidden, _ in _reached([value], names, held, beneath, _inside):
-                if id(part) in objects and (not hidden or isinstance(part, np.ndarray | Quantity)):
+                of_array = isinstance(part, np.ndarray | Quantity)
+                same = [part, *either_of(part)] if of_array else [part]
+                if (not hidden or of_array) and not objects.isdisjoint(map(id, same)):
                     found.add(name)
                     for seen, count in zip((held, beneath), known, strict=True):  # it reaches one, its parts may too
                         while len(seen) > count:
@@ -146,16 +148,16 @@ class Memory:
 
 
 def either_of(array: Any) -> list[Any]:
-    """The arrays of which a condition tells which one an array is, as far as somebody still knows them."""
-    ways = (way() for way in getattr(owner(array), "ways", ()))
-    return [way for way in ways if way is not None]
+    """The arrays of which a condition tells which one an array is, and those whose elements these show."""
+    return list(getattr(owner(array), "ways", ()))
 
 
 def one_of(made: Any, *ways: Any) -> Any:
-    """What stands for one of two arrays: who changes it in place changes one that may have another name."""
-    arrays = [owner(way) for way in ways if isinstance(way, np.ndarray | Quantity) and way.ndim]
-    if arrays:
-        made.ways = [weakref.ref(each) for array in arrays for each in (array, *either_of(array))]
+    """What stands for one of some arrays or lists, and knows them: who changes one changes the other."""
+    arrays = (way for way in ways if isinstance(way, list) or (isinstance(way, np.ndarray | Quantity) and way.ndim))
+    known = [*map(owner, arrays)]
+    if known and np.ndim(made):
+        made.ways = [each for way in known for each in (way, *either_of(way))]
     return made
 
 
