@@ -164,6 +164,21 @@ TOLD += [  # arrays of which a condition tells which one is meant, and one of th
     )),
 ]  # fmt: skip
 
+LOADS = "D = {'u': 1.0, 'w': g.F}\n"
+TOLD += [  # what shows a list or a dictionary as it is then
+    *((f"{LOADS}v = D.{view}()\n{change}", (shown,)) for change in (
+        "if g.a > 1:\n    D['z'] = g.a", "D['u' if g.F > 3 else 'w'] = 7.0", "D.update({'z': 3.0} if g.F > 3 else {})",
+    ) for view, shown in (("values", "sum(v)"), ("items", "sum(x for _, x in v)"), ("keys", "sum(D[k] for k in v)"))),
+    *((f"A = [4.0, 2.0, 1.0]\nv = {live}\n{change}", (shown,)) for change in (
+        "A[g.k % 3] = 7.0", "if g.a > 1:\n    A.pop(0)", "if g.a > 1:\n    A[0], A[1] = A[1], A[0]",
+    ) for live, shown in (
+        ("iter(A)", "next(v)"), ("map(lambda x: 2 * x, A)", "sum(v)"), ("zip(A, A)", "next(v)[0]"),
+        ("(2 * x for x in A)", "sum(v)"), ("enumerate(A)", "next(v)[1]"), ("reversed(A)", "next(v)"),
+    )),
+    (f"from types import MappingProxyType as P\n{LOADS}v = P(D)\nD['u' if g.F > 3 else 'w'] = 7.0", ("v['u']",)),
+    ("A = np.array([1.0, 2.0, 3.0])\nv = A.flat\nA[g.k % 3] = g.a", ("sum(v)",)),
+]  # fmt: skip
+
 UNFOLLOWED = "np.linalg.cond(np.array([[1.0, 2.0], [3.0, g.a]]))"
 KEPT = [  # what is taken of a statement that is not followed may have another name, by which it is changed
     (TABLE + f"c = [T[0], {UNFOLLOWED}][0]\nT[0][0] = g.F", ("c[0]",)),

@@ -7,7 +7,7 @@ import gc
 import sys
 import weakref
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, ItemsView, Iterable, Iterator, KeysView, Mapping, ValuesView
 from functools import lru_cache, partial
 from itertools import chain
 from types import (
@@ -206,7 +206,12 @@ def _reached(
         waiting += _to_look_at(parts or (), hidden)
         if id(value) in others:
             waiting += _to_look_at(others[id(value)][1].values(), hidden)
-        waiting += _to_look_at(_hidden(value), hidden=True)
+        waiting += _to_look_at(_hidden(value), hidden or not _is_live(value))
+
+
+def _is_live(value: Any) -> bool:
+    """Whether it shows what others hold as it is then: an iterator, what a dictionary has, a flat array."""
+    return hasattr(value, "__next__") or isinstance(value, KeysView | ValuesView | ItemsView | MappingProxyType)
 
 
 def _to_look_at(values: Iterable[Any], hidden: bool) -> list[tuple[Any, bool]]:
