@@ -1,6 +1,6 @@
 """Rows, lists and objects of a worksheet's own table, of which a condition tells which one is meant: part by part."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, ItemsView, Iterator, Mapping, Sequence, ValuesView
 from copy import copy, deepcopy
 from dataclasses import is_dataclass
 from operator import attrgetter, itemgetter, setitem
@@ -92,7 +92,18 @@ class Row(Mapping[Any, Any]):
         _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __iter__(self) -> Iterator[Any]:
-        return iter(self._rows[0])
+        keys, others = map(list, self._rows)
+        if keys != others:
+            raise NotRecorded("two dictionaries have their keys in another order")
+        return iter(keys)
+
+    def values(self) -> ValuesView[Any]:
+        iter(self)
+        return super().values()
+
+    def items(self) -> ItemsView[Any, Any]:
+        iter(self)
+        return super().items()
 
     def __len__(self) -> int:
         return len(self._rows[0])

@@ -15,7 +15,7 @@ from mechsheet.quantities.arithmetic import is_whole as whole_number
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.of_lists import OneOfLists
 from mechsheet.quantities.operations import regrouped
-from mechsheet.quantities.options import Fields, Row, Thing, changed, is_object, parted
+from mechsheet.quantities.options import Fields, Row, Thing, changed, every, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.refused import compared, pointed, refused, says, unless
 from mechsheet.quantities.selected import Selected, of_each
@@ -235,6 +235,8 @@ def element(container: Any, key: Any) -> Any:
     """``container[key]``: where the key is a quantity, the one of several numbers that it points at."""
     if isinstance(key, perhaps.Row):
         key = perhaps.settled(key) if None in container else perhaps.there(key)
+    if isinstance(container, Row) and not isinstance(key, str):
+        container = {known: container[known] for known in every(container)[0]}
     if isinstance(container, dict) and (is_it := _each(key)):
         return _of_option(container, key, is_it)
     if isinstance(key, Written) and isinstance(container, dict):
@@ -411,5 +413,5 @@ CALLS: dict[str, Any] = {
     "round": exactly.rounded,
     "float": _number(float, _as_float), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
-    "pow": lambda *x: x[0] ** x[1] if has_quantity(x) else exactly.powered(*x),
+    "pow": lambda *x, **named: x[0] ** x[1] if has_quantity(x) and len(x) == 2 else exactly.powered(*x, **named),
 }  # fmt: skip

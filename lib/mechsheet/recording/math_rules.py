@@ -52,8 +52,10 @@ def _product(values: Any, *, start: Any = 1) -> Any:
 
 def _remainder(x: Any, y: Any) -> Any:
     graph = current.get()
-    x, y = lift(graph, x), lift(graph, y)
-    return x - y * np.rint(x / y)
+    x, y = lift(graph, x), np.abs(lift(graph, y))
+    left = np.fmod(x, 2 * y)  # to the last bit, as what is taken off it
+    far, sign = np.abs(left), np.where(left < 0, -1.0, 1.0)
+    return sign * np.where(far <= y / 2, far, np.where(far - y < y / 2, far - y, far - 2 * y))
 
 
 def _factorial(n: Any) -> Any:

@@ -1,14 +1,17 @@
 """A statement of a worksheet before it is recorded: its code, what it binds, changes and reads."""
 
 import ast
+import builtins
 import dis
 import sys
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from functools import lru_cache
 from inspect import signature
 from traceback import walk_tb
-from types import CodeType
-from typing import NamedTuple
+from types import CodeType, FunctionType
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
@@ -28,6 +31,7 @@ _ARGUMENTS = {
 }
 _SCOPES = ast.Lambda, ast.FunctionDef, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
 _OWN = "mechsheet", "numpy", "contextlib", "__main__"  # which hand on what they are given
+_BUILT_IN = frozenset(vars(builtins))
 _BINDING = {"STORE_GLOBAL", "DELETE_GLOBAL"}
 _BESIDE = {"unit", "unknown_unit", "show", "reason"}  # arguments that no writer shows beside numbers of other inputs
 
@@ -43,6 +47,8 @@ class Statement(NamedTuple):
     whole: bool  # whether it hands on the inputs as a whole
     in_place: frozenset[str]  # names whose values it changes in place where these are arrays
     former: frozenset[str]  # names that may be what they were before, or are made of that
+    calls: frozenset[str]  # functions that it calls by a name of Python's own ones
+    inner: frozenset[str]  # names that functions in it bind
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
 
@@ -66,8 +72,27 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         any(n.id == "g" and id(n) not in of_parts for n in names),
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
         frozenset(former(statement)),
+        _BUILT_IN.intersection(n.func.id for n in nodes if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)),
+        frozenset(_bound_in(nodes)),
         tuple(_columns(statement)),
     )
+
+
+def _bound_in(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    for node in nodes:
+        match node:
+            case ast.Name(name, ast.Store()) | ast.arg(name) | ast.FunctionDef(name):
+                yield name
+
+
+def is_own(name: str, recorded: Mapping[str, Any], computed: Mapping[str, Any]) -> bool:
+    """Whether a name of one of Python's functions is that of another one among the names of a worksheet."""
+    value = computed.get(name, recorded.get(name))
+    if isinstance(value, type):
+        return value is not getattr(builtins, name)
+    if isinstance(recorded.get(name), FunctionType) and recorded[name].__globals__ is recorded:
+        return True
+    return callable(value) and getattr(value, "__name__", name) != name and value is not getattr(np, name, None)
 
 
 def _of_worksheet(nodes: Iterable[ast.AST], found: Iterable[ast.Name]) -> Iterator[str]:
