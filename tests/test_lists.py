@@ -428,3 +428,11 @@ def test_a_row_added_or_outside_its_limits_has_no_number_in_the_workbook(
     assert verdicts["inputs within their limits"] == "FAIL"
     above = recalculated(typed(exported, tmp_path / "above.xlsx", {("F", 2): 51, ("stringers.y", 1): "0,3 m"}))
     assert [row[0].value for row in above["1 Stresses"].iter_rows(min_row=5, max_row=7)] == [10, "#N/A", 2.5]
+
+
+def test_a_row_outside_its_limits_is_told_by_its_value_and_limit(tmp_path: Path) -> None:
+    """A class of rows has no values of its own: to look at them ended with Python's words about the class."""
+    path = tmp_path / "rows.py"
+    path.write_text(SHEET.replace("Stringer(1 * cm**2", "Stringer(-1 * cm**2"), encoding="utf-8")
+    with pytest.raises(SheetError, match=r"area A = -1\.0 cm² must be positive"):
+        load(path)

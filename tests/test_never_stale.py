@@ -8,6 +8,20 @@ import pytest
 from never_stale import assert_never_stale
 
 CONSTRUCTS = [
+    "D = [{0: 1.0, 1: g.F}, {1: 3.0, 0: 4.0}]\ny = D[int(g.F > 3)][int(g.a > 1)] * 2",
+    "E = [g.F, g.a, 2.0, 1.5]\ny = sorted(2 * e for e in E if e > 0.1)[1]",
+    # functions that have the names of Python's own
+    "def int(v):\n    return math.floor(v)\ny = int(g.F - 2) * g.a",
+    "def round(v):\n    return np.floor(v * 2) / 2\ny = round(g.F) + round(g.a)",
+    "def max(a, b):\n    return a + b\ny = max(g.F, g.a)",
+    "round = math.ceil\ny = round(g.F) * 1.0",
+    "from math import floor as int\ny = int(g.F - 2) * g.a",
+    "def f(v, round=math.floor):\n    return round(v)\ny = f(g.F) * 1.0",
+    "def f(v):\n    def round(x):\n        return math.floor(x)\n    return round(v) * 1.0\ny = f(g.F)",
+    "y = pow(g.n, 2, 27) * g.F",
+    "row = {'x': 2.0, 'y': 3.0} if g.F > 3 else {'y': 4.0, 'x': 5.0}\ny = list(row.values())[0]",
+    "row = {'x': 2.0, 'y': 3.0} if g.F > 3 else {'y': 4.0, 'x': 5.0}\ny = [v for _, v in row.items()][1] * 1.0",
+    "row = {'x': 2.0, 'y': 3.0} if g.F > 3 else {'y': 4.0, 'x': 5.0}\ny = row[[*row][0]] * 1.0",
     "y = [g.F * k / g.a for k in (1.0, 1.5)]",
     "v, w = x * 1.0, x * g.a\nu = v if g.F > 3 else w\nu[0] = 5.0\ny = v * 1.0",
     "y = (g.F / g.a, 2 * g.F)",

@@ -552,3 +552,12 @@ def test_a_result_called_as_an_input_has_its_own_unit_and_column(tmp_path):
     assert found.unit("F", "F") == "kN" and found.slopes["F"].tolist() == pytest.approx([0.004])
     banded = tolerance(sheet.path, ["F"], {"F": 0.5})
     assert float(banded["F"].greatest) == pytest.approx(0.012) and "F ± 0.5 of" not in banded.table("1", "").note
+
+
+def test_a_variant_for_which_something_is_none_lacks_its_value_and_no_other_does(tmp_path):
+    sheet = own(
+        tmp_path, "d = next((d for d in [1.0, 2.0, 2.5] if d >= g.F), None)  # [-] taken\nm = 2 * d  # [-] twice"
+    )
+    found = sweep(sheet.path, ["m"], {"F": [1.5, 3.0, 2.2]})
+    np.testing.assert_array_equal(found["m"], [4.0, np.nan, 5.0])
+    assert [bool(why) for why in found.reasons] == [False, True, False] and "d is None" in found.reasons[1]

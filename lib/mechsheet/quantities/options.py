@@ -92,8 +92,8 @@ class Row(Mapping[Any, Any]):
         _set(self, value, itemgetter(key), lambda row, part: setitem(row, key, part))
 
     def __iter__(self) -> Iterator[Any]:
-        keys, others = map(list, self._rows)
-        if keys != others:
+        keys, *others = map(list, every(self))
+        if any(each != keys for each in others):
             raise NotRecorded("two dictionaries have their keys in another order")
         return iter(keys)
 

@@ -148,7 +148,8 @@ def needed(holds: Quantity, why: str) -> None:
 
 def note(exists: Quantity, why: str = _WHY) -> None:
     """Note that Python has no error where a condition holds, for all that is computed, or in a turn of a loop."""
-    if exists.graph.sliders.isdisjoint(bottom_up([exists.re], ())):  # which go where the worksheet lets them
+    sliders = exists.graph.sliders
+    if not sliders or sliders.isdisjoint(bottom_up([exists.re], ())):  # which go where the worksheet lets them
         if (told := _told.get()) is not None:
             told.append(exists)
         else:

@@ -107,6 +107,8 @@ class _Rewriting(ast.NodeTransformer):
         if (text := formatted(node)) is not None:
             return self.visit_JoinedStr(text)
         match node:
+            case ast.Call(ast.Name("sorted") | ast.Attribute(_, "join"), [ast.GeneratorExp() as some], _):
+                node.args = [ast.copy_location(ast.ListComp(some.elt, some.generators), some)]  # of which they read all
             case ast.Call(ast.Name("Check"), [name, residual, limit, unit, _, *rest]):
                 node.args = [name, residual, limit, unit, ast.Constant(""), *rest]
             case ast.Call(ast.Name("Check"), _, keywords):
@@ -120,8 +122,6 @@ class _Rewriting(ast.NodeTransformer):
             case ast.Call(ast.Attribute(ast.Subscript(held, key) as part, "append" | "extend" | "add") as method):
                 if not isinstance(key, ast.Slice | ast.Tuple | ast.Constant):
                     method.value = call("held", part, held, key)
-            case ast.Call(ast.Attribute(_, "join"), [ast.GeneratorExp() as some], []):  # which reads all of it at once
-                node.args = [ast.copy_location(ast.ListComp(some.elt, some.generators), some)]
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id in _NAMES:
             node.func = ast.copy_location(ast.Name(f"recorded {node.func.id}", ast.Load()), node.func)

@@ -33,7 +33,7 @@ from mechsheet.workbook.checks_sheet import verdict
 from mechsheet.worksheet import inputs, mistakes, numbers, results, source
 from mechsheet.worksheet.cells import Worksheet, load
 from mechsheet.worksheet.check import Check, unkept
-from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, cut
+from mechsheet.worksheet.errors import SheetError, cut, is_of_numbers
 from mechsheet.worksheet.kinds import Input
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.no_inputs import beforehand
@@ -202,7 +202,9 @@ def _shaken(sheet: Worksheet, g: Any, own: Mapping[str, Displayed]) -> dict[str,
         try:
             with silently(), _own_modules(Path(sheet.path).parent):
                 there = _numbers(sheet.run(sheet.results, beforehand(_by_roundings(g, rng))))
-        except OF_NUMBERS:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             continue
         for name in own.keys() & there.keys():
             a, b = _si(own[name]), _si(there[name])

@@ -22,7 +22,7 @@ from mechsheet.worksheet import mistakes
 from mechsheet.worksheet.cells import Worksheet
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.deviation import SIGMAS
-from mechsheet.worksheet.errors import OF_NUMBERS
+from mechsheet.worksheet.errors import is_of_numbers
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.table import Table
 
@@ -90,7 +90,9 @@ class _Runs:
         """What one case tells, for which all lines run; None of one without numbers."""
         try:
             told = self._run(k)
-        except OF_NUMBERS as error:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             self.lost[k] = mistakes.reason(error, self.sheet.path)
             return None
         self._add(told, np.array([k]))
@@ -119,7 +121,9 @@ class _Runs:
         """Whether the ``n``-th of what is told is what the worksheet tells of its case alone."""
         try:
             return by.agrees(told, n, self._run(k))
-        except OF_NUMBERS:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             return False
 
     def cases(self, alone: Callable[[], Cases] | None) -> Cases:

@@ -18,7 +18,7 @@ from mechsheet.worksheet import check, inputs, mistakes, numbers
 from mechsheet.worksheet.cells import Cell, Worksheet, base, load
 from mechsheet.worksheet.cells import value as wanted
 from mechsheet.worksheet.check import stating
-from mechsheet.worksheet.errors import OF_NUMBERS
+from mechsheet.worksheet.errors import is_of_numbers
 from mechsheet.worksheet.lines import registry
 from mechsheet.worksheet.lists import Rows
 from mechsheet.worksheet.verdict import Verdict, listen, values_only
@@ -98,7 +98,9 @@ class Job:
             return self.run(columns)
         except _Changed:
             raise
-        except OF_NUMBERS as error:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             if not varied(columns):
                 return Part({}, np.ones(1, dtype=bool), {})
             if _count(columns) == 1:  # an array of one may have an error of its own
@@ -191,7 +193,9 @@ class Job:
                         add(lacking.reason if isinstance(lacking, Verdict) else lacking)
                     heard.clear()
             sheet.refuse_unbound(self.want, names)
-        except OF_NUMBERS as error:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             if count > 1 and not self.in_common(columns):
                 return np.concatenate([self._reasons(half) for half in _halves(columns)])
             if varied(columns) and count == 1:  # of which Python has its own words
@@ -217,7 +221,9 @@ class Job:
         try:
             with _emptied() as names:
                 deque(_run(sheet, sheet.needed(self.want, ["g"]), g, names), maxlen=0)
-        except OF_NUMBERS:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             return g.read.isdisjoint(varied(columns))
         return False
 
@@ -240,7 +246,9 @@ class Way:
         try:
             with values_only():
                 values, known = self.again(given)
-        except OF_NUMBERS:  # of one of them, as of a Find with no interval
+        except Exception as error:  # of one of them, as of a Find with no interval
+            if not is_of_numbers(error):
+                raise
             if count == 1:
                 return Part({}, np.zeros(0, dtype=bool), {}), np.zeros(1, dtype=bool)
             halves = [self.results(half) for half in _halves(given)]

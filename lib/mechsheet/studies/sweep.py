@@ -29,7 +29,7 @@ from mechsheet.studies.mixing import COUNT, mixes
 from mechsheet.worksheet import inputs, lists
 from mechsheet.worksheet.cells import Worksheet, asked, load, split
 from mechsheet.worksheet.data_file import HEAD
-from mechsheet.worksheet.errors import OF_NUMBERS, SheetError, as_given
+from mechsheet.worksheet.errors import SheetError, as_given, is_of_numbers
 from mechsheet.worksheet.kinds import converted
 from mechsheet.worksheet.table import heading
 
@@ -325,7 +325,9 @@ def _together(sheet: Worksheet, job: Job, given: inputs.Variants, rows: NDArray[
     for row in dict.fromkeys(probes[_SPREAD].tolist()):
         try:
             tried[row] = job.run(next(one_by_one(given.at(np.array([row])))))
-        except OF_NUMBERS:
+        except Exception as error:
+            if not is_of_numbers(error):
+                raise
             tried[row] = None
         if sum(part is not None and not part.lacking[0] for part in tried.values()) == 2:
             break

@@ -8,8 +8,8 @@ class Count(float):
     """A whole number that is a float in arrays, where numpy's own whole numbers are cut and overflow without a word.
 
     >>> teeth = Count(20)
-    >>> f"{teeth} teeth", f"{2 * teeth + 1}", [10, 20, 30][Count(2)], len(range(teeth)), teeth / 8
-    ('20 teeth', '41', 30, 20, 2.5)
+    >>> f"{teeth} teeth", f"{2 * teeth + 1}", [10, 20, 30][Count(2)], len(range(teeth // 2)), teeth / 8
+    ('20 teeth', '41', 30, 10, 2.5)
     """
 
     def __index__(self) -> int:
@@ -35,5 +35,9 @@ def _counts(name: str) -> Callable[..., Any]:
     return made
 
 
-for _name in ("add", "sub", "mul", "mod", "radd", "rsub", "rmul", "rmod", "neg", "abs"):
+for _name in (
+    *(f"{side}{name}" for side in ("", "r") for name in ("add", "sub", "mul", "mod", "floordiv")),
+    "neg",
+    "abs",
+):
     setattr(Count, f"__{_name}__", _counts(f"__{_name}__"))

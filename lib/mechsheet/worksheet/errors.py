@@ -32,6 +32,13 @@ class Waits(SheetError):
 # What a line of a worksheet raises for some numbers; anything else is a mistake in it, whatever they are.
 OF_NUMBERS = (ValueError, ArithmeticError, LookupError, AssertionError, StopIteration, RuntimeError)
 
+
+def is_of_numbers(error: Exception) -> bool:
+    """Whether it is one of `OF_NUMBERS`, or of None in the place of a number that there is for others."""
+    of_none = isinstance(error, TypeError | AttributeError) and "NoneType" in str(error)
+    return of_none or isinstance(error, OF_NUMBERS)
+
+
 _LONG = 60  # characters of what was given that an error shows
 _LISTED = 5  # of many places or names
 

@@ -76,7 +76,7 @@ def _unpacked(failed: Failed, said: Match[str], _: Any) -> str:
     return f"{count} values are given than there are names: {', '.join(names)}"
 
 
-_NO_RETURN = "a function without return gives None"
+_NO_RETURN = "a function without return gives None, and so does next(.., None)"
 
 
 def _nothing(failed: Failed, *_: Any) -> str:

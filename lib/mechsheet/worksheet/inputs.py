@@ -244,7 +244,8 @@ def _validate(self: Any) -> None:
 def _at_its_line(cls: Any, refusal: SheetError) -> SheetError:
     """Why a value cannot be used; of one of the class, where it stands, and in what unit a number alone is taken."""
     name, fields = refusal.of, declared(cls)
-    if name not in cls.__places__ or str(refusal) not in map(str, _refusals(cls, fields, fields)):
+    whole = all(hasattr(cls, field.name) for field in fields)  # a row of a table has no values of its own
+    if not whole or name not in cls.__places__ or str(refusal) not in map(str, _refusals(cls, fields, fields)):
         return refusal
     place, text, unit = cls.__places__[name]
     return SheetError(f"{place}: {refusal}{f'; {alone.taken(text, unit)}' if text else ''}", name)

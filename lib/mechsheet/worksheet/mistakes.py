@@ -251,7 +251,7 @@ _HINTS = {
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'|concatenate (list|tuple)": _SEVERAL,
     r"for unary .: '(tuple|list)'": _SEVERAL,
     r"return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
-    r"'?NoneType\b": "a function without return gives None",
+    r"'?NoneType\b": "a function without return gives None, and so does next(.., None)",
     r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
         "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
