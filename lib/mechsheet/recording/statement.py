@@ -73,7 +73,7 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
         frozenset(former(statement)),
         _BUILT_IN.intersection(n.func.id for n in nodes if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)),
-        frozenset(_bound_in(nodes)),
+        frozenset(_bound_in(nodes)).difference(bound(statement)),
         tuple(_columns(statement)),
     )
 
