@@ -211,7 +211,6 @@ CHOSEN = [
     "y = T['steel' if g.F > 3 else 'alu'][g.k] * g.F",
     "row = {True: 2.0, False: 1.0} if g.F > 3 else {False: 1.0, True: 4.5}\ny = row[g.a > 1] * g.F",
     "y = math.remainder(g.F, 0.7) + math.remainder(-g.F, 0.5) + math.remainder(2 * g.a, -1.0)",
-    "y = np.searchsorted([0.5, 1.0], np.sqrt(g.F - 2)) + g.a",
     "t = 'low' if g.F > 3 else 'high'\ny = {'low': 2.0, 'mid': g.a}.get(t, g.F) + {'high': 5}.get(t, 0.0)",
     "y = min([g.F, 2.7, g.a], default=0.0) + max((v * g.a for v in (1.0, g.F)), default=9) + min([], default=g.F)",
     "y = {0: 1.0, 2: 2.0}.get(g.k, g.F) * g.a",

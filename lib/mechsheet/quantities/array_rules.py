@@ -235,7 +235,7 @@ def searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
     in_order(graph, a)
     compared(v)
-    return choice(graph, np.isnan(v), a.count(0), _rank(graph, a, v, strictly=side == "left"))  # numpy sorts it last
+    return _rank(graph, a, v, strictly=side == "left")
 
 
 def digitized(graph: Graph, x: Any, bins: Any, right: bool = False) -> Any:
