@@ -242,9 +242,8 @@ def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset(), any
 
     With ``any_way`` if it has one on any way of a condition.
     """
-    if (
-        not any_way and node.value.dtype.kind == "f" and (np.floor(node.value) < node.value).any()
-    ):  # as of most: none looks further
+    here = node.value
+    if not any_way and here.dtype.kind == "f" and (np.floor(here) < here).any():  # as of most: none looks further
         return False
     waiting, met, turned = [node], set[Node](), dict[Node, tuple[Node, Node]]()
     while waiting:

@@ -98,7 +98,7 @@ class Row(Mapping[Any, Any]):
         return iter(keys)
 
     def values(self) -> ValuesView[Any]:
-        iter(self)
+        iter(self)  # else the reason would be told as one of the view's
         return super().values()
 
     def items(self) -> ItemsView[Any, Any]:

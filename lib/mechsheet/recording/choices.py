@@ -406,6 +406,14 @@ def length(x: Any) -> Any:
     return first.count(0) if isinstance(first, Quantity) and first.ndim else len(x)
 
 
+def _power(x: Any, y: Any, *modulus: Any) -> Any:
+    if not has_quantity((x, y, *modulus)):
+        return exactly.powered(x, y, *modulus)
+    if modulus:
+        raise NotRecorded("pow with a modulus")
+    return x**y
+
+
 CALLS: dict[str, Any] = {
     "choice": choice, "said": said, "element": element, "get": got,
     "len": length,
@@ -413,5 +421,5 @@ CALLS: dict[str, Any] = {
     "round": exactly.rounded,
     "float": _number(float, _as_float), "int": _number(int, lambda x: whole(trunc(x))),
     "complex": _number(complex, lambda *x: sum(a * b for a, b in zip(x, (1, 1j), strict=False))),
-    "pow": lambda *x, **named: x[0] ** x[1] if has_quantity(x) and len(x) == 2 else exactly.powered(*x, **named),
+    "pow": _power,
 }  # fmt: skip

@@ -210,7 +210,7 @@ class Run(Guarded, OfPositions):
             if others or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
                 raise NotRecorded(OTHER_NAME) if others else self.lost[min(gone)]
             for name in facts.calls:
-                if name in facts.inner or statement.is_own(name, self.names, self.namespace):
+                if name in facts.renamed or statement.is_own(name, self.names, self.namespace):
                     raise NotRecorded(f"{name} is another function here than Python's own")
             exec(facts.code, self.names)
             if graph.meant.disturbed():

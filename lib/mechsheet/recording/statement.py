@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from functools import lru_cache
 from inspect import signature
+from itertools import chain
 from traceback import walk_tb
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple
@@ -48,7 +49,7 @@ class Statement(NamedTuple):
     in_place: frozenset[str]  # names whose values it changes in place where these are arrays
     former: frozenset[str]  # names that may be what they were before, or are made of that
     calls: frozenset[str]  # functions that it calls by a name of Python's own ones
-    inner: frozenset[str]  # names that functions in it bind
+    renamed: frozenset[str]  # of these names those that functions in it have for their own
     columns: tuple[frozenset[str], ...]  # of each column of a table or a figure, what it takes of ``heard``
 
 
@@ -62,6 +63,8 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
     own = frozenset(turned([statement]) if isinstance(statement, ast.For | ast.While) else ())
     names = [n for n in names if n.id not in own]
     of_parts = {id(n.value) for n in attributes}
+    functions = (n for n in nodes if isinstance(n, ast.Lambda | ast.FunctionDef))
+    calls = _BUILT_IN.intersection(n.func.id for n in nodes if isinstance(n, ast.Call) and isinstance(n.func, ast.Name))
     beside = {id(n) for argument in _beside(nodes) for n in source.nodes(argument)}
     return Statement(
         compiled(statement, path, exact),
@@ -72,17 +75,10 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         any(n.id == "g" and id(n) not in of_parts for n in names),
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
         frozenset(former(statement)),
-        _BUILT_IN.intersection(n.func.id for n in nodes if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)),
-        frozenset(_bound_in(nodes)).difference(bound(statement)),
+        calls,
+        calls.intersection(chain.from_iterable(map(source.local, functions)) if calls else ()),
         tuple(_columns(statement)),
     )
-
-
-def _bound_in(nodes: Iterable[ast.AST]) -> Iterator[str]:
-    for node in nodes:
-        match node:
-            case ast.Name(name, ast.Store()) | ast.arg(name) | ast.FunctionDef(name):
-                yield name
 
 
 def is_own(name: str, recorded: Mapping[str, Any], computed: Mapping[str, Any]) -> bool:

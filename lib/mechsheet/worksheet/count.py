@@ -35,9 +35,6 @@ def _counts(name: str) -> Callable[..., Any]:
     return made
 
 
-for _name in (
-    *(f"{side}{name}" for side in ("", "r") for name in ("add", "sub", "mul", "mod", "floordiv")),
-    "neg",
-    "abs",
-):
+_OF_TWO = "add", "sub", "mul", "mod", "floordiv"
+for _name in (*_OF_TWO, *(f"r{name}" for name in _OF_TWO), "neg", "abs"):
     setattr(Count, f"__{_name}__", _counts(f"__{_name}__"))

@@ -31,6 +31,7 @@ class Waits(SheetError):
 
 # What a line of a worksheet raises for some numbers; anything else is a mistake in it, whatever they are.
 OF_NUMBERS = (ValueError, ArithmeticError, LookupError, AssertionError, StopIteration, RuntimeError)
+OF_NONE = "a function without return gives None, and so does next(.., None)"
 
 
 def is_of_numbers(error: Exception) -> bool:

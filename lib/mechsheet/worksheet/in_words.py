@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mechsheet.worksheet import failed_part
-from mechsheet.worksheet.errors import as_given, as_written, nearest, some
+from mechsheet.worksheet.errors import OF_NONE, as_given, as_written, nearest, some
 from mechsheet.worksheet.failed_part import UNKNOWN, Failed, Part, is_number
 
 
@@ -67,16 +67,13 @@ def _unpacked(failed: Failed, said: Match[str], _: Any) -> str:
     if value and is_number(value.value):
         return f"{value.says} is one number for {there}"
     if "NoneType" in said.string:
-        return f"{value.text if value else 'what is given'} is None: {_NO_RETURN}"
+        return f"{value.text if value else 'what is given'} is None: {OF_NONE}"
     if "non-iterable" in said.string:
         return ""
     if got := len(value.value) if value and value.shape else (re.search(r"got (\d+)", said.string) or ["", ""])[1]:
         return f"{value.text if value else 'what is given'} has {got} values for {there}"
     count = "fewer" if "not enough" in said.string else "more"
     return f"{count} values are given than there are names: {', '.join(names)}"
-
-
-_NO_RETURN = "a function without return gives None, and so does next(.., None)"
 
 
 def _nothing(failed: Failed, *_: Any) -> str:
@@ -188,7 +185,7 @@ def _no_number(failed: Failed, said: Match[str], _: Any) -> str:
         if isinstance(part.value, np.ndarray) and part.value.dtype.kind == "U":
             return f"{part.text} has texts, no numbers"
         if part.value is None or (unknown == [part] and "NoneType" in said.string):
-            return f"{part.text} is None: {_NO_RETURN}"
+            return f"{part.text} is None: {OF_NONE}"
         if isinstance(part.value, FunctionType):
             return f"{part.text} is a function: it is computed with what stands in its brackets, such as {part.text}(x)"
     if re.search(r"complex|not supported for the input types|real number", said.string):
@@ -261,7 +258,7 @@ def _attribute(failed: Failed, _: Any, error: Any) -> str:
     if not name and isinstance(failed.node, ast.Attribute):  # of what is set, of which Python tells them from 3.13 on
         of, name = failed.part(failed.node.value).value, failed.node.attr
     if of is None and isinstance(failed.node, ast.Attribute):
-        return f"{failed.part(failed.node.value).text} is None: {_NO_RETURN}"
+        return f"{failed.part(failed.node.value).text} is None: {OF_NONE}"
     if isinstance(of, ModuleType):
         return f"{of.__name__} has no {name}{_near(name, dir(of))}"
     kind = next((word for kinds, word in _KINDS if isinstance(of, kinds)), "")
@@ -324,7 +321,7 @@ def _brackets(failed: Failed, said: Match[str], _: Any) -> str:
 
 
 def _called_none(failed: Failed, *_: Any) -> str:
-    return f"{failed.function} is None: {_NO_RETURN}" if failed.function else ""
+    return f"{failed.function} is None: {OF_NONE}" if failed.function else ""
 
 
 def _axis(failed: Failed, said: Match[str], _: Any) -> str:

@@ -11,7 +11,7 @@ from traceback import walk_tb
 from types import FrameType
 
 from mechsheet import units
-from mechsheet.worksheet.errors import SheetError, as_written, nearest
+from mechsheet.worksheet.errors import OF_NONE, SheetError, as_written, nearest
 
 
 def place(file: str | Path, line: int) -> str:
@@ -251,7 +251,7 @@ _HINTS = {
     r"can't multiply sequence|'tuple' and|and 'tuple'|'list' and|and 'list'|concatenate (list|tuple)": _SEVERAL,
     r"for unary .: '(tuple|list)'": _SEVERAL,
     r"return arrays must be of ArrayType|positional arguments? but \d+ were given": _SEVERAL,
-    r"'?NoneType\b": "a function without return gives None, and so does next(.., None)",
+    r"'?NoneType\b": OF_NONE,
     r"'[A-Z]\w*' object (is not (iterable|subscriptable)|has no len)|type '[A-Z]\w*' has no len|non-iterable [A-Z]": (
         "inputs are read by their names: g.L, and a table's as g.bolts.x, or for bolt in g.bolts"
     ),
