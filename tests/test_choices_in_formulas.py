@@ -15,7 +15,7 @@ WRITTEN = {
     "find(lambda a: a**2, 0, 20, equals=k).value * 2": r"\operatorname{Find}\left(a,\ a^{2} = k\right) \cdot 2",
     "find(f, 0, 20).value": r"\operatorname{Find}(f = 0)",
     "sizes[sizes >= k][0]": r"{({\mathrm{sizes}}_{\mathrm{sizes} \ge k})}_{0}",
-    "sizes[i][0]": r"{{\mathrm{sizes}}_{i}}_{0}",
+    "sizes[i][0]": r"{{\mathrm{sizes}}_{i}}_{,0}",
     '{"low": 1.0, "high": k}[mode]': (
         r"\begin{cases}1 & \text{if } \mathrm{mode} = \text{low} \\ k & \text{otherwise}\end{cases}"
     ),

@@ -163,7 +163,7 @@ def test_map_and_filter_are_what_they_do_for_each(source: str, as_written_out: s
          r" + {x}_{\text{reversed}}"),
         ("x[:-n] + x[-n:]", r"{x}_{\text{all but last } n} + {x}_{\text{last } n}"),
         ("x[-n] + x[-1]", r"{x}_{\text{from the end } n} + {x}_{\text{last}}"),
-        ("x[:, 1] + x[1, :] + x[np.newaxis, :]", r"{x}_{(\text{:},\ 1)} + {x}_{1} + x"),
+        ("x[:, 1] + x[1, :] + x[np.newaxis, :]", r"{x}_{\text{:},\ 1} + {x}_{1} + x"),
         ("np.select([x < 0], [a], default=c)",
          r"\begin{cases} a & \text{if } x < 0 \\ c & \text{otherwise} \end{cases}"),
         ("np.piecewise(x, [x < 0, x < 1], [a, lambda x: x**2, f])",

@@ -43,6 +43,7 @@ EXPRESSIONS = {
     "np.prod(a)": "∏(𝑎)",
     "max(a, key=lambda x: x)": "max(𝑎,key=(𝑥↦𝑥))",
     "x[1::2]": "𝑥_(𝑘≥1,every2)",
+    "phi34[k] + M[1, 2]": "𝜑_34_(,𝑘)+𝑀_(1,2)",
     "WIDTH_2": "WIDTH_2",
 }
 

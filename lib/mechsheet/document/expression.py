@@ -312,11 +312,10 @@ class _Reader:
         value = whole.least(node.value, WHOLE)
         if not shown:
             return value
-        if isinstance(value, Element) and isinstance(value.index, Binary):  # of those that a condition picks
+        if isinstance(value, Element) and isinstance(value.index, Binary) and value.index.sign != ",":  # those picked
             value = Brackets((value,))
         inside = self.without([_read_as(node.value)])  # of which a condition is of all elements, not of the one shown
-        picked = tuple(map(inside.place, shown))
-        return Element(value, picked[0] if len(picked) == 1 else Brackets(picked))
+        return Element(value, _listed(map(inside.place, shown)))
 
     def chosen(self, among: ast.Dict, key: ast.expr) -> Node | None:
         """One of several values by a key, as a choice; None of what is no such dictionary."""
@@ -339,13 +338,14 @@ class _Reader:
                 return Prefix(Text("from the end "), self.least(counted, SUM))
             case ast.expr() if not isinstance(key, ast.Slice):
                 return self.read(key)
+        k = names.counter(key)
         match key.lower, key.upper:
             case ast.expr() as start, ast.expr() as stop if not _is_minus(start) and not _is_minus(stop):
-                first = Binary(self.least(start, SUM), "≤", Symbol("k"))
+                first = Binary(self.least(start, SUM), "≤", k)
                 parts: list[Node] = [Binary(first, "<", self.least(stop, SUM))]
             case start, stop:
-                parts = [self.beyond(start, "≥", "last ")] if start else []
-                parts += [self.beyond(stop, "<", "all but last ")] if stop else []
+                parts = [self.beyond(k, "≥", start, "last ")] if start else []
+                parts += [self.beyond(k, "<", stop, "all but last ")] if stop else []
         match key.step:
             case None:
                 pass
@@ -353,15 +353,12 @@ class _Reader:
                 parts.append(Text("reversed"))
             case step:
                 parts.append(Prefix(Text("every "), self.least(step, SUM)))
-        whole, *more = parts or [Text(":")]
-        for part in more:
-            whole = Binary(whole, ",", part)
-        return whole
+        return _listed(parts or [Text(":")])
 
-    def beyond(self, end: ast.expr, sign: str, counted: str) -> Node:
+    def beyond(self, k: Symbol, sign: str, end: ast.expr, counted: str) -> Node:
         """Elements on one side of an end, which may be counted from the last one."""
         if not isinstance(end, ast.UnaryOp) or not _is_minus(end):
-            return Binary(Symbol("k"), sign, self.least(end, SUM))
+            return Binary(k, sign, self.least(end, SUM))
         return Text(counted.strip()) if names.number(end) == -1 else Prefix(Text(counted), self.least(end.operand, SUM))
 
     def starred(self, node: ast.Starred) -> Node:
@@ -397,6 +394,10 @@ _RULES: dict[type[ast.expr], Callable[[_Reader, Any], Node | None]] = {
 
 
 _ARRANGING = ("...", "None", "np.newaxis", "numpy.newaxis", "newaxis")  # axes
+
+
+def _listed(parts: Iterable[Node]) -> Node:
+    return reduce(lambda before, part: Binary(before, ",", part), parts)
 
 
 def _is_minus(node: ast.expr) -> bool:

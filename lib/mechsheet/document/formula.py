@@ -212,6 +212,11 @@ def children(node: Node) -> Iterator[Node]:
             yield part
 
 
+def goes_on(node: Element) -> bool:
+    """Whether its index stands behind that of its part: a comma parts them."""
+    return isinstance(node.of, Element) or (isinstance(node.of, Symbol) and node.of.index != "")
+
+
 def is_high(node: Node) -> bool:
     """Whether a part stands higher than a line."""
     match node:

@@ -29,6 +29,7 @@ from mechsheet.document.formula import (
     Signed,
     Sum,
     Text,
+    goes_on,
     is_high,
 )
 from mechsheet.worksheet import numbers
@@ -173,7 +174,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Fraction: lambda node: rf"\frac{{{latex(node.over)}}}{{{latex(node.under)}}}",
     Root: lambda node: rf"\sqrt{f'[{latex(node.degree)}]' if node.degree else ''}{{{latex(node.of)}}}",
     Power: lambda node: f"{latex(node.base)}^{{{latex(node.exponent)}}}",
-    Element: lambda node: f"{{{latex(node.of)}}}_{{{latex(node.index)}}}",
+    Element: lambda node: f"{{{latex(node.of)}}}_{{{',' if goes_on(node) else ''}{latex(node.index)}}}",
     Overline: lambda node: rf"\overline{{{latex(node.of)}}}",
     Brackets: _brackets,
     Apply: lambda node: latex(node.function) + latex(node.arguments),

@@ -162,6 +162,12 @@ def is_module(node: ast.expr) -> bool:
     return False
 
 
+def counter(key: ast.expr) -> Symbol:
+    """The letter that counts elements: one that their ends do not read."""
+    read_there = {getattr(node, "id", getattr(node, "attr", "")) for node in ast.walk(key)}
+    return Symbol(next(letter for letter in "kijnm" if letter not in read_there))
+
+
 def place(key: ast.expr) -> Node | None:
     """Elements in words, which Python counts from either end, or by symbols; None where they are told as they are."""
     match key:

@@ -30,6 +30,7 @@ from mechsheet.document.formula import (
     Signed,
     Sum,
     Text,
+    goes_on,
     is_high,
 )
 from mechsheet.worksheet import numbers
@@ -270,7 +271,7 @@ RULES: dict[type[Any], Callable[[Any], str]] = {
     Fraction: lambda node: f"<mfrac>{inner(node.over)}{inner(node.under)}</mfrac>",
     Root: _root,
     Power: _power,
-    Element: lambda node: f"<msub>{inner(node.of)}{inner(node.index)}</msub>",
+    Element: lambda node: f"<msub>{inner(node.of)}{_row([_COMMA * goes_on(node), inner(node.index)])}</msub>",
     Overline: lambda node: f'<mover accent="true">{inner(node.of)}<mo stretchy="true">‾</mo></mover>',
     Brackets: _brackets,
     Apply: lambda node: f"<mrow>{inner(node.function)}{inner(node.arguments)}</mrow>",
