@@ -94,6 +94,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("cross(A - B, F)", r"(A - B) \times F"),
         ("x % (2*pi)", r"x \bmod 2\,\pi"),
         ("group_67.R_A", r"R_{\mathrm{A}}(\text{group 67})"),
+        ("fit[0].F - fit[i + 1].F", r"F({\mathrm{fit}}_{0}) - F({\mathrm{fit}}_{i + 1})"),
         ("I3i.F + on_bucket.R_B", r"F(I_{\mathrm{3i}}) + R_{\mathrm{B}}(\text{on bucket})"),
         ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
         ("phi3[k]", r"{\varphi_{3}}_{,k}"),

@@ -197,6 +197,8 @@ class _Reader:
                 return self.read(ast.Subscript(ast.Attribute(table, part), row))
             case ast.Attribute(ast.Name(name), part):  # a result of several parts
                 return Apply(names.part(part), Brackets((names.whole(name),)))
+            case ast.Attribute(ast.Subscript() as inner, part):
+                return Apply(names.part(part), Brackets((self.read(inner),)))
             case ast.Attribute(ast.Call() as inner, part):
                 return Apply(names.part(part), Brackets((self.read(inner),), "[]", high=True))
         return None
@@ -347,11 +349,9 @@ class _Reader:
                 parts = [self.beyond(k, "≥", start, "last ")] if start else []
                 parts += [self.beyond(k, "<", stop, "all but last ")] if stop else []
         match key.step:
-            case None:
-                pass
             case ast.UnaryOp(ast.USub(), ast.Constant(1)):
                 parts.append(Text("reversed"))
-            case step:
+            case ast.expr() as step:
                 parts.append(Prefix(Text("every "), self.least(step, SUM)))
         return _listed(parts or [Text(":")])
 
