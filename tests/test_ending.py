@@ -291,6 +291,19 @@ def test_where_it_does_not_close_nothing_behind_it_speaks(start: Start, lever: C
     assert not path.with_suffix(".xlsx").exists()
 
 
+@ways
+def test_an_input_in_the_wrong_unit_is_told_where_what_comes_of_it_ends_the_run(
+    start: Start, lever: Callable[..., Path]
+) -> None:
+    """The error alone would send its reader to another line; one that is given is not the one that stands there."""
+    text = TEMPLATE.replace("M_max: float = 300.0", "M_max: float = 1e12")
+    path = lever("L: float = 0.35  # [m]", "L: float = 350.0  # [mm]", text)
+    told = start(path)
+    assert "L = 350000 mm; 350.0 is taken in m" in told.stderr.splitlines()[0] and told.stderr.count("\n") == 2
+    assert "is outside" in told.stderr.splitlines()[1] and told.returncode == 1
+    assert start(path, "--L=350").stderr.count("\n") == 1
+
+
 def test_an_exception_that_no_check_explains_stays_what_it_is(lever: Callable[..., Path]) -> None:
     with pytest.raises(ValueError, match=r"max\(\)"):
         evaluate(lever(', phi, (g.L, g.L), "', ', phi, (g.L, g.L), "', OPEN.replace('* float("nan")', "")), ["reached"])

@@ -119,18 +119,24 @@ def _end(worksheet: str, _: type[BaseException], error: BaseException, _trace: T
 
 
 def _told(error: BaseException, worksheet: str) -> tuple[str, int]:
-    """The line that tells why, that the mechanism does not close or the error's own, and the exit code."""
+    """The line that tells why, that the mechanism does not close or the error's own, and the exit code.
+
+    Before it stand inputs whose number is hardly meant: what comes of one is told as something else.
+    """
     from mechsheet.run import arguments  # on use: what watches a run from its beginning loads nothing that takes long
     from mechsheet.worksheet import cells, inputs, no_inputs
 
+    unlikely = list[str]()
     try:
         if arguments.is_script(worksheet) and not isinstance(error, arguments.UsageError):
             sheet = cells.load(worksheet)
-            given = arguments.read(sys.argv[1:], inputs.declared(sheet.inputs))
-            sheet.close(no_inputs.beforehand(inputs.build(sheet.inputs, given.inputs)))
+            given = arguments.read(sys.argv[1:], inputs.declared(sheet.inputs)).inputs
+            own = (each for each in inputs.unlikely(sheet.inputs) if each[0] not in given)
+            unlikely = [f"{place}: {why}\n" for _, place, why in own]
+            sheet.close(no_inputs.beforehand(inputs.build(sheet.inputs, given)))
     except SheetError as cause:
         error = cause
     except Exception:  # the mistake that there is has its own line
         pass
     text = mistakes.refused(error, worksheet) if isinstance(error, SheetError) else mistakes.told(error, worksheet)
-    return f"error: {text}", MISUSED if isinstance(error, arguments.UsageError) else 1
+    return f"{''.join(unlikely)}error: {text}", MISUSED if isinstance(error, arguments.UsageError) else 1

@@ -26,7 +26,10 @@ def main() -> None:
     del sys.argv[0]
     watch(sys.argv[0])
     sys.stdout, sys.stderr = sys.stdout or StringIO(), sys.stderr or StringIO()  # none, where they were closed
-    _run(sys.argv[0])
+    try:
+        _run(sys.argv[0])
+    except Exception as error:  # told here: what runs this module as a program puts another name into the arguments
+        sys.excepthook(type(error), error, error.__traceback__)
 
 
 def start(worksheet: str) -> None:
