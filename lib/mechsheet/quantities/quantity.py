@@ -105,11 +105,11 @@ class Quantity(NDArrayOperatorsMixin):
 
     @property
     def real(self) -> "Quantity":
-        return Quantity(self.graph, self.re, base=self)
+        return Quantity(self.graph, self.whole().re, base=self)
 
     @property
     def imag(self) -> "Quantity":
-        return Quantity(self.graph, self.graph.constant(0.0) if self.im is None else self.im, base=self)
+        return Quantity(self.graph, self.whole().im or self.graph.like(self.graph.constant(0.0), self.re), base=self)
 
     def called(self, symbol: str, unit: str, meaning: str) -> "Quantity":
         """Name a step of a calculation: it gets a cell of its own."""

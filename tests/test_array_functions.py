@@ -1,0 +1,29 @@
+"""Functions of numpy that round, order and move the elements of arrays, followed for other inputs and lengths."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from own_worksheet import ELSEWHERE, assert_followed, own, recorded, value_of
+
+PARTS = [
+    "y = (x * 1j + 1.25).real", "y = np.imag(x + 1j)", "y = x.imag", "y = (x + 1j * g.a).imag.sum()",
+    "y = np.sum((1j * x + g.a).real)",
+]  # fmt: skip
+
+
+def assert_all_followed(lines: str, tmp_path: Path) -> None:
+    """Without a gap or a guard, and in the lengths that numpy has."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line\ntable_2 = table('2', 'Two', result)")
+    _, recording = recorded(sheet)
+    assert not recording.gaps and not [guard for guard in recording.guards.values() if not guard.rows]
+    assert_followed(sheet, recording, ELSEWHERE)
+    for n in (3, 5):
+        expected = sheet.run(["result"], {"g": sheet.inputs(n=n)})["result"]
+        assert np.shape(value_of(recording, "result", {"n": n})) == np.shape(expected)
+
+
+@pytest.mark.parametrize("lines", PARTS)
+def test_a_part_of_complex_numbers_has_the_length_of_the_whole(lines: str, tmp_path: Path) -> None:
+    """Where it is the same number for all, a part was one number alone: its sum was that number."""
+    assert_all_followed(lines, tmp_path)
