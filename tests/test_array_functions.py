@@ -27,3 +27,19 @@ def assert_all_followed(lines: str, tmp_path: Path) -> None:
 def test_a_part_of_complex_numbers_has_the_length_of_the_whole(lines: str, tmp_path: Path) -> None:
     """Where it is the same number for all, a part was one number alone: its sum was that number."""
     assert_all_followed(lines, tmp_path)
+
+
+ROUNDED = [
+    "y = np.around(x, 1)", "y = np.around(x)", "y = np.round(x * 1e3, -2)",
+    "z = np.round(x - 1.26j * x, 1)\ny = z.real + 2 * z.imag",
+    "y = np.round(g.k * 7, -1) * 1.5", "y = x[x > 1].round(1).sum()", "y = np.around(x[x > g.a], 1).max()",
+    "w = np.round(np.arange(4) * g.k, 1)\nw[0] = g.F\ny = w * 1.0",
+    "w = np.round(np.arange(4) * g.k * 7, -1)\nw[0] = g.F\ny = w * 1.0",
+    "w = np.arange(4) * g.k\nv = np.round(w, 1)\nv[0] = 9\ny = w + v * g.a",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("lines", ROUNDED)
+def test_arrays_are_rounded_to_decimals(lines: str, tmp_path: Path) -> None:
+    """Complex ones, those of a condition and what is `around` were told, and whole ones in which something is set."""
+    assert_all_followed(lines, tmp_path)

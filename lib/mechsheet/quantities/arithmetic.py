@@ -154,9 +154,14 @@ def trunc(x: Quantity) -> Any:
 
 
 def rounded(x: Quantity, decimals: int) -> Any:
-    """Rounded to decimals, halves to the even neighbour."""
+    """Rounded to decimals, halves to the even neighbour, each part of a complex number; whole numbers have none."""
+    if x.im is not None:
+        return x.each(lambda part: rounded(Quantity(x.graph, part), decimals).re)
+    if is_whole(x) and decimals > 0:
+        return x.__copy__()
     scale = 10.0**decimals
-    return elementwise("round")(x * scale) / scale if decimals else elementwise("round")(x)
+    made = elementwise("round")(x * scale) / scale if decimals else elementwise("round")(x)
+    return whole(made) if is_whole(x) else made
 
 
 def conjugate(x: Quantity) -> Quantity:

@@ -19,6 +19,7 @@ _NUMBERS = int | float | complex | np.number
 _ELEMENTWISE: dict[Any, tuple[int, int]] = {  # which arguments are elements
     np.where: (0, 3), np.clip: (0, 3), np.real: (0, 1), np.imag: (0, 1), np.angle: (0, 1), np.nan_to_num: (0, 1),
     np.zeros_like: (0, 1), np.ones_like: (0, 1), np.full_like: (0, 2), np.interp: (0, 1), np.polyval: (1, 2),
+    np.round: (0, 1), np.around: (0, 1),
 }  # fmt: skip
 
 
