@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from never_stale import assert_never_stale
 from own_worksheet import ELSEWHERE, assert_followed, own, recorded, value_of
 
 PARTS = [
@@ -43,3 +44,42 @@ ROUNDED = [
 def test_arrays_are_rounded_to_decimals(lines: str, tmp_path: Path) -> None:
     """Complex ones, those of a condition and what is `around` were told, and whole ones in which something is set."""
     assert_all_followed(lines, tmp_path)
+
+
+MOVED = [
+    "y = np.roll(x, g.k)", "y = np.roll(x, 1 - 3 * g.k)", "y = np.roll([g.F, g.a, 1], -g.k)",
+    "y = np.roll(np.outer(x, [1, g.a]), g.k, axis=0)[:, 1]", "y = np.roll(x * 1j + g.a, g.k).imag",
+    "w = np.roll(np.arange(5), g.k)\nw[0] = g.F\ny = w * 1.0", "y = np.roll(x[:0], g.k).sum() + g.F",
+    "y = np.delete(x, g.k)", "y = np.delete(x, -g.k)", "y = np.delete([g.F, g.a, 1, 2], g.k)",
+    "y = np.delete(x, np.argmax(abs(x - g.F)))", "y = np.delete(np.outer(x, [1, g.a]), g.k, axis=0)[:, 1]",
+    "y = np.insert(x, 0, 0)", "y = np.insert(x, len(x), g.F)", "y = np.insert(x, -1, g.F)",
+    "y = np.insert(x, g.k, g.F)", "y = np.insert(x, -g.k, g.F)", "y = np.insert(x, [0, 1], [g.F, g.a])",
+    "y = np.insert(x, 1, x)",
+    "y = np.insert(np.arange(4), 1, g.F) * 1.0", "y = np.insert(np.arange(4), g.k, g.F) * 1.0",
+    "y = np.insert(x > 1, g.k, g.F > 2) * 1.0", "y = np.insert(x + 1j * x, g.k, g.F).imag",
+    "y = np.insert(np.outer([1, g.F], [1, g.a, 5]), 1, [g.F, 2, 3], axis=0)[:, 1]",
+    "y = np.insert(np.where(x > 2, np.nan, x), 1, g.a)", "y = np.insert(np.cumsum(x), 0, 0)[:-1]",
+    "y = np.delete(x, 9 - 2 * g.k).sum() if g.k > 2 else g.F",
+    "y = np.pad(x, 1)", "y = np.pad(x, (1, 2), constant_values=(g.F, g.a))", "y = np.pad(x, (2, 7), 'edge')",
+    "y = np.pad(x + 1j, 1).imag", "y = np.pad(np.arange(4), 1, constant_values=g.F) * 1.0",
+    "y = np.pad(np.outer(x, [1, g.a]), ((1, 0), (0, 1)), constant_values=g.F)[:, 2]",
+]  # fmt: skip
+ONLY_TOLD = [
+    "y = np.roll(x, (g.k,))", "y = np.roll(x, g.k + 0.0)", "y = np.roll(np.outer(x[:3], [1, g.a]), g.k).ravel()",
+    "y = np.delete(x, [g.k, 1])", "y = np.delete(x, x > 1)", "y = np.delete(x, g.k + 1)", "y = np.delete(x, g.k * 2)",
+    "y = np.insert(x, g.k * 2, g.F)", "y = np.insert(x, g.k, [g.F, g.a])", "y = np.insert(x[x > 1], g.k, g.F).sum()",
+    "y = np.insert(x, 4, g.F)", "y = np.pad(x, g.k)", "y = np.pad(x, 1, mode='mean')",
+    "y = np.pad(x, 2, mode='reflect', reflect_type='odd')", "y = np.insert(x, 1, 1j * g.F) if g.F > 9 else x",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("lines", MOVED)
+def test_elements_are_moved_put_in_and_left_out(lines: str, tmp_path: Path) -> None:
+    """insert and pad were told, and roll and delete were followed where Python saw the same place alone."""
+    assert_all_followed(lines, tmp_path)
+
+
+@pytest.mark.parametrize("lines", ONLY_TOLD)
+def test_what_is_moved_otherwise_is_never_stale(lines: str, tmp_path: Path) -> None:
+    """Several places that inputs tell, places that there are not for some inputs, what is made of other numbers."""
+    assert_never_stale(lines, tmp_path)

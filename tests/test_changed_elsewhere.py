@@ -39,9 +39,9 @@ DECIMALS = [  # in an array that looks as if it had whole numbers alone
     "w = np.ones_like(np.arange(3))\nw[0] = 4 * g.a\ny = w.sum() * 1.0",
 ]
 LENGTHS = [  # of what is not followed
-    "w = np.insert(x, 0, g.a)\ny = len(w) * 1.0",
-    "w = np.insert(x, 0, g.a)\ny = np.where(g.F > 9, w, 0.5).sum()",
-    "w = np.insert(x, 0, g.a)\ny = np.meshgrid([1.0, 2.0], w)[0].sum()",
+    "w = np.partition(np.append(x, g.a), 0)\ny = len(w) * 1.0",
+    "w = np.partition(np.append(x, g.a), 0)\ny = np.where(g.F > 9, w, 0.5).sum()",
+    "w = np.partition(np.append(x, g.a), 0)\ny = np.meshgrid([1.0, 2.0], w)[0].sum()",
 ]
 GUARDED = [  # which asks first whether there is one
     "w = np.array([1.0, 2.0, 4.0])\ny = 3.0 if g.k < 3 and w[g.k] > 3 else g.F",

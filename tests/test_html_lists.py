@@ -95,6 +95,9 @@ FOLLOWED = [
     "(F.sum() * np.linspace(1, 2, 3))[np.argsort(-F.sum() * np.linspace(1, 2, 3))]",
     "sum(v for v in np.sin(x))", "[p.x for p in g.points][1]", "max(g.points, key=lambda p: p.y).x",
     "F[F > 0].sum() + len(F[F > 0])", "F[F > 0][-1]", "x[np.flatnonzero(y > 2)].max() * g.a",
+    "np.around(F, 1)", "np.round(F * 1j, 1).imag", "(F * 1j + 1).real", "np.roll(F, np.argmax(F))",
+    "np.delete(F, np.argmin(F))", "np.delete(x, -1)", "np.insert(x, len(x), g.a)", "np.insert(F, np.argmin(F), g.a)",
+    "np.pad(F, 1, constant_values=g.a)", "np.pad(x, (1, 2), constant_values=(g.a, 2))", "np.insert(F, 1, g.a)",
 ]  # fmt: skip
 COUNTED_BY_PYTHON = {  # lines, and the list whose rows are counted
     "np.array([[v, g.a] for v in F]).sum(axis=0)": "F", "np.fft.fft(F).real": "F",

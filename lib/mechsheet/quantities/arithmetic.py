@@ -146,6 +146,11 @@ def as_count(made: Quantity, each: Quantity) -> Quantity:
     return made
 
 
+def row_numbers(graph: Graph, count: Any) -> Quantity:
+    """The numbers 0, 1, 2 .. of so many rows."""
+    return Quantity(graph, graph.rows(count.re)) if isinstance(count, Quantity) else lift(graph, np.arange(count))
+
+
 def trunc(x: Quantity) -> Any:
     if x.dtype == bool:
         return choice(x.graph, x, 1, 0)

@@ -47,6 +47,7 @@ from mechsheet.quantities.operations import REDUCE_SO_FAR
 from mechsheet.quantities.quantity import FUNCTIONS, REDUCTIONS, Quantity, has_quantity, joined, lift, moved, plain
 from mechsheet.quantities.refused import compared
 from mechsheet.quantities.selected import Selected, also_of_selected
+from mechsheet.quantities.shifted import inserted, padded, rolled, without
 from mechsheet.quantities.statistics_rules import (
     average,
     correlation,
@@ -370,10 +371,11 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     ),
     **{f: _joined(f) for f in (np.concatenate, np.stack, np.vstack, np.hstack, np.dstack, np.column_stack)},
     np.block: blocks, np.unravel_index: place_of,
+    np.roll: rolled, np.insert: inserted, np.delete: without, np.pad: padded,
     **{f: _seen(f) for f in (np.argwhere, np.unique, np.ix_, np.setdiff1d, np.union1d, np.intersect1d)},
     **{f: _rearranged(f) for f in (
-        np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.roll, np.flip,
-        np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.delete, np.split, np.array_split,
+        np.ravel, np.reshape, np.transpose, np.squeeze, np.expand_dims, np.moveaxis, np.swapaxes, np.flip,
+        np.fliplr, np.flipud, np.rot90, np.repeat, np.tile, np.resize, np.split, np.array_split,
         np.atleast_1d, np.atleast_2d, np.diagonal, np.take_along_axis,
     )},
 }  # fmt: skip

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice, only_where
+from mechsheet.quantities.arithmetic import choice, only_where, row_numbers
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift
+from mechsheet.quantities.quantity import FUNCTIONS, Quantity, lift
 from mechsheet.quantities.refused import refused
 
 _OF_NONE: dict[str, float] = {
@@ -206,9 +206,7 @@ def places(graph: Graph, x: Any) -> Any:
     x = lift(graph, x)
     if graph.thin > 1 or x.ndim != 1 or isinstance(x, Selected) or x.re in graph.fixed:
         return np.flatnonzero(x.seen())
-    count = x.count(0)
-    number: Any = Quantity(graph, graph.rows(count.re)) if has_quantity([count]) else np.arange(count)
-    return Selected(lift(graph, number), x if x.dtype == bool else x != 0)
+    return Selected(row_numbers(graph, x.count(0)), x if x.dtype == bool else x != 0)
 
 
 def _all_places(graph: Graph, x: Any) -> Any:

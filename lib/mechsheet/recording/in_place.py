@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import choice, cuts, is_count, only_where
+from mechsheet.quantities.arithmetic import choice, cuts, is_count, only_where, row_numbers
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.operations import ELEMENTWISE
@@ -135,10 +135,9 @@ def _at(old: Quantity, places: list[Any], new: Quantity) -> Quantity | None:
     is_set, exists = [], []
     for axis, place in of.items():
         count = old.count(axis)
-        rows = Quantity(graph, graph.rows(count.re)) if isinstance(count, Quantity) else np.arange(count)
         place = choice(graph, place < 0, place + count, place)
         exists.append((place >= 0) & (place < count))
-        is_set.append(lift(graph, rows == place)[tuple(slice(None) if k == axis else None for k in axes)])
+        is_set.append((row_numbers(graph, count) == place)[tuple(slice(None) if k == axis else None for k in axes)])
     there = lift(graph, reduce(operator.and_, exists))
     if not there.value:
         return None
