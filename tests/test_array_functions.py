@@ -83,3 +83,38 @@ def test_elements_are_moved_put_in_and_left_out(lines: str, tmp_path: Path) -> N
 def test_what_is_moved_otherwise_is_never_stale(lines: str, tmp_path: Path) -> None:
     """Several places that inputs tell, places that there are not for some inputs, what is made of other numbers."""
     assert_never_stale(lines, tmp_path)
+
+
+IN_ORDER = [
+    "z = [g.F, g.a, 1.0]\nz.sort()\ny = z",
+    "z = [g.F, g.a, 1.0]\nw = z\nz.sort(reverse=True)\nw[0] = g.F\ny = z",
+    "z = [g.F, g.a, 1.0]\nz.sort(key=lambda v: -v)\ny = z",
+    "z = [(g.F, 1), (g.a, 2)]\nz.sort(key=lambda v: v[0], reverse=True)\ny = [v[1] * 1.0 for v in z]",
+    "def f(v):\n    v.sort()\nz = [g.F, g.a, 1.0]\nf(z)\ny = z",
+    "z = [3, 1, g.k]\nz.sort()\ny = [1.5, 2.5, 3.5, 4.5][z[1]]",
+    "z = np.array([[g.F, 1.0], [g.a, 2.0]])\nz.sort(axis=0)\ny = z.ravel()",
+    "d = {'reverse': True}\nz = [g.F, g.a, 1.0]\nz.sort(**d)\ny = z",
+    "z = np.array([g.F, g.a, 1.0])\nz.sort(kind='stable')\ny = z",
+]
+NOT_IN_ORDER = [
+    "z = [g.F, g.a, 1.0]\nd = {'a': z}\nd['a'].sort()\ny = z",
+    "z = [g.F, g.a, 1.0]\nif g.F > 2:\n    z.sort()\ny = z",
+    "z = [g.F, g.a, 1.0]\nz.sort(reverse=g.k > 1)\ny = z",
+    "z = [g.F, g.a, np.nan]\nz.sort()\ny = z[0] * 1.0",
+    "z = [[g.F, 2], [g.a, 3]]\nw = z[0]\nz.sort(key=lambda r: r[0])\nw[1] = 7\ny = [r[1] * 1.0 for r in z]",
+    "z = np.array([g.F, g.a, 1.0])\nw = z\nz.sort(axis=0)\ny = w",
+    "z = [3, g.F]\nz.sort()\ny = len(f'{z[0]}') * g.a",
+    "a = [g.F, g.a]\nz = a if g.k > 1 else [1.0, g.a]\nz.sort()\ny = sum(a) + a[0]",
+]
+
+
+@pytest.mark.parametrize("lines", IN_ORDER)
+def test_what_is_put_in_order_in_place_is_followed(lines: str, tmp_path: Path) -> None:
+    """A list had the order of the present numbers alone; an array along a named axis was told."""
+    assert_all_followed(lines, tmp_path)
+
+
+@pytest.mark.parametrize("lines", NOT_IN_ORDER)
+def test_what_is_put_in_order_otherwise_is_never_stale(lines: str, tmp_path: Path) -> None:
+    """Lists that have other names somewhere, an order that inputs tell, what has no order."""
+    assert_never_stale(lines, tmp_path)

@@ -263,7 +263,7 @@ def _rank(graph: Graph, a: Quantity, v: Quantity, strictly: bool = False) -> Any
     return choice(graph, passed(found), found + 1, found) if left else found
 
 
-def ordered(graph: Graph, x: Any, axis: Any = -1) -> Any:
+def ordered(graph: Graph, x: Any, axis: Any = -1, kind: Any = None) -> Any:
     """Sorted by an even-odd network of comparisons; many numbers by the order that they have now."""
     if is_ranked(x := lift(graph, x)):
         return x[order(graph, x, kind="stable")]

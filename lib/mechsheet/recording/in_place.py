@@ -15,7 +15,7 @@ from mechsheet.quantities.operations import ELEMENTWISE
 from mechsheet.quantities.quantity import Quantity, has_quantity, joined, lift, owner, plain, quantities
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.written import Written
-from mechsheet.recording import exactly
+from mechsheet.recording import exactly, ordered
 from mechsheet.recording.choices import element
 from mechsheet.recording.memory import either_of, taken
 
@@ -187,15 +187,18 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     return new
 
 
-def arranged(old: Any, method: str, *args: Any) -> Any:
+def arranged(old: Any, method: str, named: dict[str, Any], *args: Any) -> Any:
     """``old`` after ``old.sort()`` or ``old.fill(value)``."""
+    if type(old) is list and method == "sort" and not args:
+        old[:] = ordered.ranked(old, **named)
+        return old
     if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, *args])):
-        getattr(old, method)(*args)
+        getattr(old, method)(*args, **named)
         return old
     graph = next(quantities([old, *args])).graph
     graph.meant.gone += former([old])
     array = lift(graph, old)
-    return np.sort(array, *args) if method == "sort" else np.full_like(array, *args)
+    return np.sort(array, *args, **named) if method == "sort" else np.full_like(array, *args, **named)
 
 
 def outside(value: Any) -> Any:

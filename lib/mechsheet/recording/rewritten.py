@@ -219,10 +219,11 @@ class _Rewriting(ast.NodeTransformer):
         return node
 
     def visit_Expr(self, node: ast.Expr) -> Any:
-        """An array that is put in order in place, or filled; not where its name is of those outside of a function."""
+        """What is put in order in place, or filled; not where its name is of those outside of a function."""
         match node.value:
-            case ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill" as method), args, []) if self.binds(name):
-                return _bound_anew(node, name, "arranged", ast.Constant(method), *map(self.visit, args))
+            case ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill" as method), args, by) if self.binds(name):
+                named = ast.Call(ast.Name("dict", ast.Load()), [], [*map(self.visit, by)])
+                return _bound_anew(node, name, "arranged", ast.Constant(method), named, *map(self.visit, args))
         return self.generic_visit(node)
 
     def visit_AugAssign(self, node: ast.AugAssign) -> Any:
