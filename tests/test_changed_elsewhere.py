@@ -21,6 +21,13 @@ IN_PLACE = [  # what changes nothing with the inputs that are recorded
     "w = x * 1.0\nw.clip(0, 6, out=w)\ny = w.sum()",
     "w = x * 1.0\nnp.maximum(w, 0.15 * g.a, out=w)\ny = w.sum()",
     "w = x * 1.0\nw.fill(g.F)\ny = w.sum()",
+    # Parts of an array, which has no name there.
+    "w = np.array([1.0, g.F, 3.0])\nw[:2].sort()\ny = w[0] * 1.0",
+    "w = np.array([[1.0, g.F], [1.875 * g.a, 3.0]])\nw.T.sort()\ny = w[0] @ [1.0, 2.0]",
+    "w = np.array([1.0, g.F, 2.0])\nnp.maximum(w[:2], 1.25 * g.a, out=w[:2])\ny = w[0] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nnp.copyto(w[:2], np.minimum(w[:2], g.F))\ny = w[0] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nw.ravel().sort()\ny = w[2] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nw[:2][0] = min(1.0, g.F)\ny = w[0] * 1.0",
     "w = np.outer([1.0, 2.0], [0.5, g.F])\nw[0, 0] = w[1, 1] = 2.5 * g.a\nnp.fill_diagonal(w, 1.875)\ny = w.sum()",
 ]
 FORMS = [  # of what is no array

@@ -240,16 +240,29 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
 
 
 def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
-    """Names whose values a statement changes in place where these are arrays."""
+    """Names whose values a statement changes in place where these are arrays, parts of them also."""
     for node in nodes:
         match node:
-            case ast.AugAssign(ast.Name() as name) | ast.Subscript(ast.Name() as name, ctx=ast.Store()):
-                yield name
+            case ast.AugAssign(target):
+                yield from _held_by(target)
+            case ast.Subscript(of, ctx=ast.Store()) | ast.Attribute(of, ctx=ast.Store()):
+                yield from _held_by(of)
             case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
                 filled = args[:1] if function in FILLING else ()
-                yield from (each for each in (of, *filled) if isinstance(each, ast.Name))  # or of numpy itself
-            case ast.keyword("out", ast.Name() as name):
-                yield name
+                yield from chain.from_iterable(map(_held_by, (of, *filled)))  # or of numpy itself
+            case ast.keyword("out", array):
+                yield from _held_by(array)
+
+
+def _held_by(node: ast.AST) -> Iterator[ast.Name]:
+    """The name of what an expression is a part of, or a view, as a function of it may be."""
+    match node:
+        case ast.Name():
+            yield node
+        case ast.Subscript(of) | ast.Attribute(of):
+            yield from _held_by(of)
+        case ast.Call(function, args):
+            yield from chain.from_iterable(map(_held_by, (function, *args)))
 
 
 @lru_cache(maxsize=4096)
