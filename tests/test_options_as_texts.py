@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 import written_cells
 from as_script import as_script
@@ -16,14 +17,15 @@ from cells import run
 
 from mechsheet import evaluate, load, sweep
 from mechsheet.html import fields as html_fields
+from mechsheet.quantities.lines import Recording
 from mechsheet.recording.record import record
 from mechsheet.run import arguments
 from mechsheet.studies import asked_design
 from mechsheet.worksheet import inputs, mistakes
 from mechsheet.worksheet.check import checks_of
+from mechsheet.worksheet.chosen import Chosen
 from mechsheet.worksheet.errors import SheetError
-from mechsheet.worksheet.kinds import Chosen
-from tests.own_worksheet import written
+from tests.own_worksheet import value_of, written
 
 SHEET = written(
     """
@@ -76,17 +78,86 @@ def test_the_chosen_name_is_used_as_a_text(gears: Path, mode: str, names: list[s
 @pytest.mark.parametrize(
     ("takes", "said"),
     [
-        (lambda mode: getattr(np, mode), "attribute name must be string, not an option (str(..) of an option"),
-        (lambda mode: "".join([mode]), "expected str instance, an option found (str(..) of an option"),
         (lambda mode: 2 * mode, "'int' and an option (an option is no number"),
-        (lambda mode: pd.Series([1.0, 2.0], ["low", "high"])[mode], "KeyError: 'high' (of an option a table of pandas"),
+        (lambda mode: mode - 1, "an option and 'int' (an option is no number"),
+        (lambda mode: mode == "hihg", "'hihg' is none of the options low, high"),
     ],
 )
 def test_what_takes_no_option_is_told_in_words(takes: Callable[[Chosen], object], said: str) -> None:
-    """It said Chosen, and of what takes a text that an option is no number."""
-    with pytest.raises((TypeError, KeyError)) as raised:
+    """It said Chosen."""
+    with pytest.raises((TypeError, ValueError)) as raised:
         takes(Chosen(("low", "high"), 1, {}))
     assert said in mistakes.told(raised.value, "gears.py")
+
+
+TAKEN = {  # forms in which whatever takes a text takes an option
+    "len(g.m)": [5, 9],
+    "len(', '.join([g.m, 'x']))": [8, 12],
+    "len(sorted([g.m, 'iron'])[0])": [4, 9],
+    "'iron' in g.m": [False, True],
+    "g.m in 'mild steel'": [True, False],
+    "g.m.startswith('c') + g.m.find('e') + len(g.m.upper().split())": [3, 2],
+    "isinstance(g.m, str)": [True, True],
+    "len(f'{g.m:>12}'.strip() + g.m + ' x')": [12, 20],
+    "(g.m < 'd') + 2 * (g.m >= 'd') + 4 * ('d' > g.m) + 8 * ('d' <= g.m)": [10, 5],
+    "g.m in ('cast iron', 'steel')": [True, True],
+    "{'steel': 3, 'cast iron': 4}[str(g.m)]": [3, 4],
+    "len([*reversed(g.m)])": [5, 9],
+    "(np.array(['steel', 'steel', 'cast iron']) == g.m).sum()": [2, 1],
+    "int(bool(g.m))": [1, 1],
+    "bool(re.match('st', g.m))": [True, False],
+    "str.upper(g.m) == 'STEEL'": [True, False],
+    "len(json.dumps([g.m]))": [9, 13],
+    "pd.Series([1.0, 2.0], ['steel', 'cast iron'])[g.m]": [1, 2],
+    "getattr(SimpleNamespace(steel=3), g.m, 4)": [3, 4],
+}
+NOT_FOLLOWED = ("re.", "str.upper", "json", "pd.")
+
+
+def taken(path: Path, lines: str) -> tuple[list[Any], Recording]:
+    """The second number of y for each of the options, and the recording of the first."""
+    setup = """
+import json
+import re
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+
+from mechsheet import ask, inputs, read, table
+"""
+    given = 'm: Literal["steel", "cast iron"] = "steel"  # m\nh: float = 2.0  # [-] h'
+    path.write_text(written(setup, given, f"{lines}\ntable_1 = table('1', 'y', y)"), encoding="utf-8")
+    sheet = load(path)
+    found = [sheet.run(sheet.results, {"g": inputs.build(sheet.inputs, {"m": m})}) for m in ("steel", "cast iron")]
+    return [each["y"][1] for each in found], record({**found[0], "__file__": sheet.path})
+
+
+@pytest.mark.parametrize("form", TAKEN)
+def test_whatever_takes_a_text_takes_an_option(form: str, tmp_path: Path) -> None:
+    """Of the other option the recording has its own number, or it tells that it has none."""
+    found, recording = taken(tmp_path / "taken.py", f"y = np.arange(3.0) * ({form}) * g.h  # [-] y")
+    assert found == [2 * wanted for wanted in TAKEN[form]]
+    assert len(recording.gaps) == any(part in form for part in NOT_FOLLOWED)
+    for gap in recording.gaps:
+        assert "recorded text" in gap.reason or "takes the text, str(..)" in gap.reason
+    if not recording.gaps and not recording.guards:
+        assert value_of(recording, "y", {"m": 1.0})[1] == found[1]
+
+
+def test_a_pattern_that_tells_the_type_takes_an_option(tmp_path: Path) -> None:
+    """None took it, and another way was gone without a word."""
+    lines = "match g.m:\n    case str():\n        k = 3\n    case _:\n        k = 1\n"
+    found, recording = taken(tmp_path / "taken.py", f"{lines}y = np.arange(3.0) * k * g.h  # [-] y")
+    assert found == [6, 6]
+    assert {gap.reason for gap in recording.gaps} == {"a pattern that tells the type of a number or a text"}
+
+
+def test_properties_go_before_the_methods_of_texts_and_a_copy_is_the_same() -> None:
+    option: Any = Chosen(("low", "high"), 1, {"title": 2.0, "count": 3})
+    for each in (option, copy.deepcopy(option), pickle.loads(pickle.dumps(option))):
+        assert (each.title, each.count, each.upper(), each == "high", each == "low") == (2.0, 3, "HIGH", True, False)
 
 
 def test_whole_numbers_of_options_and_rows_are_counted(gears: Path, tmp_path: Path) -> None:

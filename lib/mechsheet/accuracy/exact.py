@@ -23,7 +23,7 @@ from mechsheet.accuracy.arithmetic import (
     in_balls,
     rrr,
 )
-from mechsheet.worksheet.kinds import Chosen
+from mechsheet.worksheet.chosen import Chosen
 
 _LINKS = {3: ("O3", "P23_S"), 4: ("P34_S", "P45_S"), 5: ("O5", "P45_S"), 6: ("P56_S", "P67_S"), 7: ("O7", "P67_S")}
 _LOADS = {"P6", "k_gc", "P_gc_max", "eta", "D_gc", "P_msha", "P_gr", "a", "L", "b"}  # move nothing of the hitch

@@ -14,7 +14,7 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.perhaps import Perhaps, itself, settled, some_of, there
 from mechsheet.quantities.quantity import Quantity
-from mechsheet.worksheet.kinds import Chosen, place
+from mechsheet.worksheet.chosen import Chosen, place
 
 _FORMAT = r"\+?(\.\d{1,2}[efg]|d|,(\.\d{1,2}f|d))|"  # which a reader writes too
 _WIDE = r"([<>^]?)(\+?)([1-9]\d?)(|[,.a-z][^%]*)"  # so wide, with blanks
@@ -263,11 +263,15 @@ def _shown(value: Any, spec: str) -> Iterator[Any]:
 
 def joined(sign: Any, parts: Any) -> Any:
     """``sign.join(parts)`` of texts, some of them with recorded numbers in them."""
-    each = [*map(there, parts)] if isinstance(sign, str | Written) else None
+    each = [*map(_part, parts)] if isinstance(sign, str | Written) else None
     if each is None or not any(isinstance(part, Written) for part in (sign, *each)):
         return sign.join(parts if each is None else each)
     pieces = [piece for part in each for piece in (sign, part)][1:]
     return Written(tuple(_pieces(pieces)))
+
+
+def _part(value: Any) -> Any:
+    return text(value) if isinstance(value, Chosen) else there(value)
 
 
 def either(holds: Quantity, then: "str | Written", otherwise: "str | Written") -> Written:
@@ -293,7 +297,7 @@ def seen(value: Any) -> Any:
     """A number or a text for Python to look at, as it is now; a guard tells while it is the same."""
     if isinstance(value, Quantity):
         return value.seen().item() if value.single else value.seen()
-    return str(value) if isinstance(value, Written) else value
+    return str(value) if isinstance(value, Written | Chosen) else value
 
 
 def looked_at(value: Any) -> Any:

@@ -27,7 +27,7 @@ from mechsheet.recording import exactly
 from mechsheet.recording.memory import before_ways, may_change, one_of, stands_for_others, taken
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
-from mechsheet.worksheet.kinds import Chosen, cases
+from mechsheet.worksheet.chosen import Chosen, cases
 from mechsheet.worksheet.lists import Whole, first_column
 
 NUMBERS = int | float | complex | np.number | Quantity

@@ -16,10 +16,10 @@ from mechsheet.quantities.operations import regrouped
 from mechsheet.quantities.options import is_same
 from mechsheet.quantities.quantity import Quantity, has_quantity
 from mechsheet.quantities.selected import Selected
-from mechsheet.quantities.written import Written
+from mechsheet.quantities.written import Written, seen
 from mechsheet.recording.choices import ARRAYS, NUMBERS, as_condition, choice, is_condition
 from mechsheet.recording.memory import may_change
-from mechsheet.worksheet.kinds import Chosen
+from mechsheet.worksheet.chosen import Chosen
 
 
 def both(*parts: FunctionType) -> Any:
@@ -57,6 +57,8 @@ def negated(value: Any) -> Any:
 
 def member(value: Any, several: Any) -> Any:
     """``value in several``: of a number, an option or a text that may be another one, the condition."""
+    if isinstance(several, str):
+        return seen(value) in several
     single = isinstance(value, Written | Chosen) or (isinstance(value, Quantity) and value.single)
     if not single or not isinstance(several, dict | list | tuple | set | frozenset):
         return value in several

@@ -17,6 +17,7 @@ from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity
 from mechsheet.quantities.refused import is_pythons, of_library
 from mechsheet.quantities.text_column import Texts
 from mechsheet.quantities.written import Written
+from mechsheet.worksheet.chosen import Chosen, first
 
 _TYPES = {"bool", "complex", "float", "int", "str", "np.ndarray"}  # which a pattern may name
 
@@ -35,6 +36,8 @@ def _told(ask: Callable[..., Any], x: Any, *of: Any) -> Any:
 
 def _alike(x: Any) -> tuple[Any, ...]:
     """Values of each type that the worksheet's own may have."""
+    if isinstance(x, Chosen):
+        return (first(x),)
     if isinstance(x, Written | Texts):
         return ("" if isinstance(x, Written) else np.array([""]),)
     if not isinstance(x, Quantity):
@@ -64,7 +67,7 @@ def matching(node: ast.Match) -> str:
 
 def _matched(value: Any) -> Any:
     """A value of which patterns such as ``float()`` tell the type."""
-    if has_quantity(value) or isinstance(value, Written):
+    if has_quantity(value) or isinstance(value, Written | Chosen):
         raise NotRecorded("a pattern that tells the type of a number or a text")
     return value
 

@@ -8,11 +8,11 @@ from mechsheet.quantities.options import Fields, Row, Thing
 from mechsheet.quantities.quantity import Listed, Quantity
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.text_column import Texts, among
-from mechsheet.quantities.written import Written
+from mechsheet.quantities.written import Written, text
 from mechsheet.recording.choices import element
 from mechsheet.recording.each_row import EachRow
 from mechsheet.recording.sifted import Sifted
-from mechsheet.worksheet.kinds import Chosen
+from mechsheet.worksheet.chosen import Chosen
 
 _KNOWN_AS: dict[type, str] = {
     **dict.fromkeys([Quantity, Selected], "recorded number"),
@@ -28,12 +28,15 @@ _ARGUMENT = re.compile(r"^\S+\(\) got an unexpected keyword argument ('\w+')$") 
 
 def in_words(error: BaseException) -> str:
     """What Python says of an error, without the classes of what stands for numbers and texts."""
+    if any(isinstance(key, Chosen) for key in error.args):
+        return "of an option a table of pandas takes the text, str(..)"
     said = str(error).splitlines()[0] if str(error) else repr(error)
     return _NAME.sub(lambda match: _NAMES[match[1]], _ARGUMENT.sub(r"its argument \1 is not followed", said))
 
 
 def attribute(of: Any, name: Any, *otherwise: Any) -> Any:
     """``getattr``, where the name may be one of several texts."""
+    name = text(name) if isinstance(name, Chosen) else name
     options = among(current.get(), name) if isinstance(name, Written) else None
     if options is None:
         return getattr(of, str(name) if isinstance(name, Written) else name, *otherwise)

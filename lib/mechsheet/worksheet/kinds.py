@@ -8,7 +8,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
-from operator import index
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from mechsheet import units
 from mechsheet.worksheet import errors, numbers
+from mechsheet.worksheet.chosen import Chosen
 from mechsheet.worksheet.deviation import Deviation
 from mechsheet.worksheet.errors import SheetError
 
@@ -169,77 +169,6 @@ class Input:
         """The value made of its leaves, which may be arrays of variants or quantities of a recording."""
         value = leaves[self.name]
         return int(value) if self.counted and isinstance(value, int | float | np.number) else value
-
-
-class Chosen:
-    """One of several named options: equal to its name and used as that text is, with its properties as attributes.
-
-    >>> shear = Chosen(("single", "double"), 1, {"planes": 2})
-    >>> shear == "double", f"{shear} shear", "in " + shear, shear.upper(), shear[:2], shear.planes
-    (True, 'double shear', 'in double', 'DOUBLE', 'do', 2)
-    """
-
-    def __init__(self, options: tuple[str, ...], at: Any, properties: Mapping[str, Any]) -> None:
-        self._options, self._at, self._properties = options, at, properties
-
-    def _of(self, name: str) -> int:
-        if name not in self._options:
-            raise ValueError(f"{errors.as_given(name)} is none of the options {', '.join(self._options)}")
-        return self._options.index(name)
-
-    def __eq__(self, other: object) -> Any:
-        if isinstance(other, str | Chosen):
-            return self._at == self._of(str(other))
-        return NotImplemented
-
-    def __ne__(self, other: object) -> Any:
-        if isinstance(other, str | Chosen):
-            return self._at != self._of(str(other))
-        return NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(str(self))
-
-    def __str__(self) -> str:
-        return self._options[index(self._at)]
-
-    def __format__(self, form: str) -> str:
-        return str(self).__format__(form)
-
-    def __repr__(self) -> str:
-        return repr(str(self))
-
-    def __getitem__(self, key: Any) -> str:
-        return str(self)[key]
-
-    def __contains__(self, part: object) -> bool:
-        return str(part) in str(self)
-
-    def __add__(self, other: object) -> Any:
-        return str(self) + str(other) if isinstance(other, str | Chosen) else NotImplemented
-
-    def __radd__(self, other: object) -> Any:
-        return other + str(self) if isinstance(other, str) else NotImplemented
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        if name not in self._properties and hasattr(str, name):
-            return getattr(str(self), name)
-        if name not in self._properties:
-            has = ", ".join(self._properties)
-            raise AttributeError(f"an option has no property {name}" + (f"; it has {has}" if has else ""))
-        return self._properties[name]
-
-
-def place(chosen: Chosen) -> tuple[tuple[str, ...], Any]:
-    """The names of all options, and the number of the chosen one."""
-    return chosen._options, chosen._at
-
-
-def cases(chosen: Chosen) -> dict[str, Any]:
-    """Whether each of the options is the chosen one, by name."""
-    return {option: chosen == option for option in chosen._options}
 
 
 class Offer(NamedTuple):

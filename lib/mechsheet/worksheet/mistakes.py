@@ -146,7 +146,6 @@ def unbound(gives: Container[str], certain: Container[str], path: str) -> Iterat
 def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Container[str] = ()) -> str:
     """An exception in words, with the ``known`` names and those of the ``inputs``; ``text`` is that of the cell."""
     from mechsheet.worksheet.in_words import NOT_BOUND, in_words  # on use: as above
-    from mechsheet.worksheet.kinds import Chosen
 
     if isinstance(error, NameError) and error.name:
         called = as_written(error.name)
@@ -179,8 +178,6 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
     if " " not in said:  # the bare name of a key, or nothing
         said = f"{type(error).__name__}: {said}".removesuffix(": ")
     hint = next((hint for pattern, hint in _HINTS.items() if re.search(pattern, said)), "")
-    if isinstance(error, KeyError) and any(isinstance(key, Chosen) for key in error.args):
-        hint = "of an option a table of pandas takes the text, str(..)"
     if hint == _SEVERAL and (name := _list(error, said, text)):
         done = "multiplied" if "multiply" in said else "computed"
         hint = f"{name} is a list: np.array([..]) is {done} element by element"
@@ -188,7 +185,7 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
         hint = ""  # too many arguments of another kind
     elif hint == _SEVERAL and (typed := re.search(_TYPED, text)):  # often it is a line further up
         hint += f", as in {typed[0].strip()}"
-    return (told or re.sub(r"'?\bChosen\b'?", "an option", said)) + (f" ({hint})" if hint else "")
+    return (told or re.sub(r"'?\bChosen(Text)?\b'?", "an option", said)) + (f" ({hint})" if hint else "")
 
 
 def _list(error: BaseException, said: str, text: str) -> str:
@@ -257,8 +254,7 @@ _HINTS = {
     ),
     r"'(Found|Solution)'|type (Found|Solution)\b": "what a Find has found is its .value",
     r"\bfunction'|type function\b": "a function is computed with what stands in its brackets, such as s(phi)",
-    r"\bstr(ing)?\b.*\bChosen\b": "str(..) of an option is its text",
-    r"'Chosen'": "an option is no number: its properties are read by their names, such as g.steel.R_e",
+    r"'Chosen(Text)?'": "an option is no number: its properties are read by their names, such as g.steel.R_e",
     r"truth value of an array": "of many values each is chosen by np.where(condition, this, that)",
     r"out of bounds for axis 0 with size 0|zero-size array|empty sequence|argument is empty|is empty$": (
         "no element is left there: none meets the condition"
