@@ -200,3 +200,21 @@ def test_an_input_is_no_result_and_told_as_one(gears: Path) -> None:
     for ask in (lambda: evaluate(gears, ["h"]), lambda: sweep(gears, ["h"], {"h": np.array([1.0])})):
         with pytest.raises(SheetError, match=said):
             ask()
+
+
+def test_a_table_of_one_column_is_given_in_one_line_and_of_its_rows_what_is_misspelt_is_told(tmp_path: Path) -> None:
+    """Its page took such a text, a command not; an attribute of a row was told without the one that is meant."""
+    path = tmp_path / "rings.py"
+    setup = "from mechsheet import ask, inputs, read\n\n@inputs\nclass Ring:\n    diameter: float  # [mm] diameter"
+    given = "rings: list[Ring] = [Ring(0.05), Ring(0.06)]  # rings"
+    path.write_text(written(setup, given, "y = sum(g.rings.diameter)  # [mm] sum\nn = len(g.rings)  # [-] number"))
+    for text, n in {"72; 75": 2, "72; 75;": 2, "72 | 75": 2, "72": 1, "72;": 1}.items():
+        found = evaluate(path, ["y", "n"], rings=text)
+        assert found["n"] == n and found["y"] == pytest.approx([0.072, 0.147][n - 1])
+    assert as_script(path, "--rings=72; 75").returncode == 0
+    for row in ("for r in g.rings", "for r in [Ring(0.05)]"):
+        path.write_text(written(setup, given, f"y = [r.diametr {row}][0]  # [mm] first"))
+        run = as_script(path)
+        assert run.returncode and run.stderr.rstrip().endswith("Ring has no diametr (did you mean diameter?)"), (
+            run.stderr
+        )

@@ -206,7 +206,9 @@ class Rows(Input):
         apart = " apart by ;, rows by |" if isinstance(value, str) and ";" not in value else ""
         if isinstance(value, str):
             cells = _cells(value, len(short))
-            value = cells if self.row else [cell for row in cells for cell in row]
+            if len(short) == 1:  # whose rows may stand apart by ; too
+                cells = [[cell] for row in cells for cell in row]
+            value = cells if self.row else [cell for (cell,) in cells]
         if hasattr(value, "items"):
             given = {str(name): np.ravel(np.asarray(xs, dtype=object)).tolist() for name, xs in value.items()}
             given = {short.get(name, name): xs for name, xs in given.items()}

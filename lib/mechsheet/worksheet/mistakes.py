@@ -167,6 +167,8 @@ def why(error: BaseException, known: Iterable[str], text: str = "", inputs: Cont
             return no_input(name, (field.name for field in fields))
         if hasattr(kind, "__row__"):
             return f"the table has no column {name}{_near(name, vars(error.obj))}"
+        if hasattr(kind, "__properties__"):
+            return f"{kind.__name__} has no {name}{_near(name, vars(error.obj))}"
     if imported := re.match(r"cannot import name '(\w+)' from '([\w.]+)'", str(error)):
         name, module = imported.groups()
         if module == "mechsheet.units" and (meant := units.nearest(name)):
