@@ -163,6 +163,11 @@ IN_WORDS = {  # what Python says in words about values that nobody sees in the l
         "from mechsheet import figure\nx = np.arange(3)  # [-] x\nfig = figure('1', 'x', x, x, marks=2)",
         "figure 1: marks must be positions by their names",
     ),
+    "a word of find": (
+        "y = find(lambda x: x - 2, 0, 9, unknwon='x').value  # [-] y",
+        "unknwon (did you mean unknown?)",
+    ),
+    "a word of find alone": ("y = find(lambda x: x - 2, gues=1.0).value  # [-] y", "are gues (did you mean guess?)"),
     "another name": ("y = find(lambda x: x, 0, 1, equal=0.5).value  # [-] y", "or the unknowns equal"),
 }
 REFUSED |= {what: (lines, GIVEN, "", said) for what, (lines, said) in IN_WORDS.items()}

@@ -1,7 +1,7 @@
 """What is asked of a solve block of several unknowns: its equations, and where each unknown is looked for."""
 
 import inspect
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ from mechsheet.mechanics.brackets import Array, Mask
 from mechsheet.mechanics.rows import Parts, one_by_one, takes_arrays
 from mechsheet.mechanics.starts import Place
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.errors import SheetError, as_given, measured
+from mechsheet.worksheet.errors import SheetError, as_given, measured, nearest
 
 Start = ArrayLike | tuple[ArrayLike, ArrayLike]  # a guess, or the ends of an interval
 
@@ -183,7 +183,16 @@ def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
         return
     taken = [p.name for p in parameters if p.default is p.empty]
     if sorted(taken) != sorted(names):
-        raise SheetError(f"the equations are of {', '.join(taken)}, the unknowns given are {', '.join(names)}")
+        raise SheetError(f"the equations are of {', '.join(taken)}, the unknowns given are {meant(names)}")
+
+
+def meant(unknowns: Iterable[str]) -> str:
+    """Unknowns that are given, with the word of find that one of them may be."""
+    near = next((near[0] for name in unknowns if (near := nearest(name, _WORDS))), "")
+    return ", ".join(unknowns) + (f" (did you mean {near}?)" if near else "")
+
+
+_WORDS = ("equals", "guess", "branch", "branches", "unknown", "quantity", "unit", "unknown_unit")
 
 
 def _place(name: str, value: Start, unit: str) -> Place:

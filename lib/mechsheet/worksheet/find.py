@@ -17,7 +17,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.equations import Start, common_shape, real_numbers
+from mechsheet.worksheet.equations import Start, common_shape, meant, real_numbers
 from mechsheet.worksheet.errors import SheetError, function, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
@@ -287,7 +287,7 @@ def find(  # type: ignore[misc]
     if unknowns:
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
             names = "equals, guess, branch, branches, unknown, quantity, unit and unknown_unit"
-            raise SheetError(f"find takes either an interval with {names}, or the unknowns {', '.join(unknowns)}")
+            raise SheetError(f"find takes either an interval with {names}, or the unknowns {meant(unknowns)}")
         return solve(f, equals, unit, unknown_unit, unknowns)
     measured(unit), measured(unknown_unit)
     return sought(f, _Words(unknown, quantity, unit, unknown_unit), lo, hi, equals, guess, branch, branches)
