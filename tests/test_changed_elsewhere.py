@@ -26,8 +26,16 @@ IN_PLACE = [  # what changes nothing with the inputs that are recorded
     "w = np.array([[1.0, g.F], [1.875 * g.a, 3.0]])\nw.T.sort()\ny = w[0] @ [1.0, 2.0]",
     "w = np.array([1.0, g.F, 2.0])\nnp.maximum(w[:2], 1.25 * g.a, out=w[:2])\ny = w[0] * 1.0",
     "w = np.array([1.0, g.F, 3.0])\nnp.copyto(w[:2], np.minimum(w[:2], g.F))\ny = w[0] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nnp.add(w[:1], min(g.F, 1.0) - 1.0, w[:1])\ny = w[0] * 1.0",
     "w = np.array([1.0, g.F, 3.0])\nw.ravel().sort()\ny = w[2] * 1.0",
     "w = np.array([1.0, g.F, 3.0])\nw[:2][0] = min(1.0, g.F)\ny = w[0] * 1.0",
+    # By way of what holds them, which is all that is changed.
+    "w = np.array([1.0, g.F, 3.0])\nv = [w]\nv[0] *= max(1.0, g.F / 3)\ny = w[1] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nv = {'a': w}\nv['a'] *= max(1.0, g.F / 3)\ny = w[1] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nv = {'a': w}\nv['a'].sort()\ny = w[1] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nv = [w]\nv[0][:2].sort()\ny = w[0] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nv = [w]\nv[0][0] = min(1.0, g.F)\ny = w[0] * 1.0",
+    "w = np.array([[1.0, g.F], [2.0, 3.0]])\nfor v in w:\n    v.sort()\ny = w[0] @ [1.0, 2.0]",
     "w = np.outer([1.0, 2.0], [0.5, g.F])\nw[0, 0] = w[1, 1] = 2.5 * g.a\nnp.fill_diagonal(w, 1.875)\ny = w.sum()",
 ]
 FORMS = [  # of what is no array

@@ -793,7 +793,7 @@ y = made()  # [-] set"""
     [
         ("y = 'abab'.count('ab' if g.F > 3 else 'b') + g.F", "must be str, not recorded text"),
         ("y = len(('b' if g.F > 3 else 'c') * 3) + g.F", "for *: 'recorded text' and 'int'"),
-        ("y = np.sort(x, kind='stable')[0]", "its argument 'kind' is not followed"),
+        ("y = np.quantile(x, 0.3, method='lower')", "its argument 'method' is not followed"),
         ("y = len(range(g.k)) * len('a' * g.k) + g.F", "values that are no numbers"),
     ],
 )

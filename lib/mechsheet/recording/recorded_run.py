@@ -202,7 +202,8 @@ class Run(Guarded, OfPositions):
         may_change = any(map(changes, codes))
         unseen = (under | {*touched}) & self.lost.keys() - self.names.keys() if may_change else set[str]()
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
-        others = Memory.sharing(self.names, arrays).difference(touched)
+        held = map(self.names.get, facts.within)
+        others = Memory.sharing(self.names, [*arrays, *held]).difference(touched)
         handed = map(self.names.get, under) if sets_of_others(*codes) else ()
         reached = Memory.sharing(self.names, handed).difference(touched)  # which a function may change
         differs: list[str] = []

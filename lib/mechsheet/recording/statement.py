@@ -47,6 +47,7 @@ class Statement(NamedTuple):
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
     in_place: frozenset[str]  # names whose values it changes in place where these are arrays
+    within: frozenset[str]  # names of what holds arrays that it changes in place
     former: frozenset[str]  # names that may be what they were before, or are made of that
     calls: frozenset[str]  # functions that it calls by a name of Python's own ones
     renamed: frozenset[str]  # of these names those that functions in it have for their own
@@ -74,6 +75,7 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
+        frozenset(_of_worksheet(nodes, _within(nodes))),
         frozenset(former(statement)),
         calls,
         calls.intersection(chain.from_iterable(map(source.local, functions)) if calls else ()),
@@ -250,8 +252,28 @@ def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
             case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
                 filled = args[:1] if function in FILLING else ()
                 yield from chain.from_iterable(map(_held_by, (of, *filled)))  # or of numpy itself
-            case ast.keyword("out", array):
+            case ast.keyword("out", array) | ast.Expr(ast.Call(ast.Attribute(ast.Name("np")), [_, _, array])):
                 yield from _held_by(array)
+
+
+def _within(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
+    """Names of what holds what a statement changes in place: no more than an element is set of a list itself."""
+    elements = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}
+    arranged = set[str]()
+    for node in nodes:
+        match node:
+            case ast.Call(ast.Attribute(ast.Name(name), function)) if function in ARRANGING:
+                arranged.add(name)
+    for node in nodes:
+        match node:
+            case ast.For(ast.Name(turn), of) if turn in arranged:
+                yield from _held_by(of)
+            case ast.Subscript(of, ctx=ast.Store()) if id(node) in elements:
+                yield from _held_by(of)
+            case ast.Subscript(ast.Subscript() | ast.Attribute() as of, ctx=ast.Store()):
+                yield from _held_by(of)
+            case ast.Call(ast.Attribute(ast.Subscript() | ast.Attribute() as of, function)) if function in ARRANGING:
+                yield from _held_by(of)
 
 
 def _held_by(node: ast.AST) -> Iterator[ast.Name]:
