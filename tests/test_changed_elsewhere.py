@@ -36,6 +36,10 @@ IN_PLACE = [  # what changes nothing with the inputs that are recorded
     "w = np.array([1.0, g.F, 3.0])\nv = [w]\nv[0][:2].sort()\ny = w[0] * 1.0",
     "w = np.array([1.0, g.F, 3.0])\nv = [w]\nv[0][0] = min(1.0, g.F)\ny = w[0] * 1.0",
     "w = np.array([[1.0, g.F], [2.0, 3.0]])\nfor v in w:\n    v.sort()\ny = w[0] @ [1.0, 2.0]",
+    "w = np.array([[1.0, g.F], [2.0, 3.0]])\nfor v in w:\n    v[0] = min(v[0], g.F)\ny = w.sum(axis=1)[0]",
+    "w = np.array([1.0, g.F, 3.0])\nd = {'a': w}\nfor name, v in d.items():\n    v.sort()\ny = w[1] * 1.0",
+    "w = np.array([1.0, g.F, 3.0])\nd = {'a': w}\nnp.maximum(w, 1.25 * g.a, out=d['a'])\ny = w[0] * 1.0",
+    "class Held:\n    pass\nw = np.array([1.0, g.F])\nv = Held()\nv.w = w\nv.w *= max(1.0, g.F / 3)\ny = w[1] * 1.0",
     "w = np.outer([1.0, 2.0], [0.5, g.F])\nw[0, 0] = w[1, 1] = 2.5 * g.a\nnp.fill_diagonal(w, 1.875)\ny = w.sum()",
 ]
 FORMS = [  # of what is no array

@@ -100,6 +100,7 @@ IMPORT = "from mechsheet import typeset\n"
         ("phi3[k]", r"{\varphi_{3}}_{,k}"),
         ("M[i][12]", r"{{M}_{i}}_{,12}"),
         ("x[:k] + x[k:g.i]", r"{x}_{i < k} + {x}_{k \le j < i}"),
+        ("x[k + i + j:n + m]", r"{x}_{k + i + j \le p < n + m}"),
         ("F[0, 1]", r"{F}_{0,\ 1}"),
         ("P[..., :n_b] + P[..., n_b:]", r"{P}_{k < n_{\mathrm{b}}} + {P}_{k \ge n_{\mathrm{b}}}"),
         ("alpha[:, None, None] - a[0, :]", r"\alpha - {a}_{0}"),

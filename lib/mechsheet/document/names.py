@@ -4,6 +4,7 @@ import ast
 import re
 from functools import lru_cache
 from inspect import Parameter, signature
+from string import ascii_letters
 
 import numpy as np
 
@@ -165,7 +166,7 @@ def is_module(node: ast.expr) -> bool:
 def counter(key: ast.expr) -> Symbol:
     """The letter that counts elements: one that their ends do not read."""
     read_there = {getattr(node, "id", getattr(node, "attr", "")) for node in ast.walk(key)}
-    return Symbol(next(letter for letter in "kijnm" if letter not in read_there))
+    return Symbol(next(letter for letter in f"kijnmpq{ascii_letters}" if letter not in read_there))
 
 
 def place(key: ast.expr) -> Node | None:

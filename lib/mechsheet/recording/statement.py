@@ -243,37 +243,32 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
 
 def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
     """Names whose values a statement changes in place where these are arrays, parts of them also."""
+    return chain.from_iterable(map(_held_by, _altered(nodes)))
+
+
+def _within(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
+    """Names of what holds arrays that a statement changes in place: as elements, parts, or for turns."""
+    altered = [*_altered(nodes)]
+    own = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}  # a number has another one then
+    names = {array.id for array in altered if isinstance(array, ast.Name) and id(array) not in own}
+    turned = (n.iter for n in nodes if isinstance(n, ast.For) and not names.isdisjoint(_names(n.target)))
+    parts = (array for array in altered if not isinstance(array, ast.Name))
+    return chain.from_iterable(map(_held_by, (*turned, *parts)))
+
+
+def _altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
+    """What a statement changes in place where it is an array."""
     for node in nodes:
         match node:
             case ast.AugAssign(target):
-                yield from _held_by(target)
+                yield target
             case ast.Subscript(of, ctx=ast.Store()) | ast.Attribute(of, ctx=ast.Store()):
-                yield from _held_by(of)
+                yield of
             case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
-                filled = args[:1] if function in FILLING else ()
-                yield from chain.from_iterable(map(_held_by, (of, *filled)))  # or of numpy itself
+                yield of  # or numpy itself
+                yield from args[:1] if function in FILLING else ()
             case ast.keyword("out", array) | ast.Expr(ast.Call(ast.Attribute(ast.Name("np")), [_, _, array])):
-                yield from _held_by(array)
-
-
-def _within(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
-    """Names of what holds what a statement changes in place: no more than an element is set of a list itself."""
-    elements = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}
-    arranged = set[str]()
-    for node in nodes:
-        match node:
-            case ast.Call(ast.Attribute(ast.Name(name), function)) if function in ARRANGING:
-                arranged.add(name)
-    for node in nodes:
-        match node:
-            case ast.For(ast.Name(turn), of) if turn in arranged:
-                yield from _held_by(of)
-            case ast.Subscript(of, ctx=ast.Store()) if id(node) in elements:
-                yield from _held_by(of)
-            case ast.Subscript(ast.Subscript() | ast.Attribute() as of, ctx=ast.Store()):
-                yield from _held_by(of)
-            case ast.Call(ast.Attribute(ast.Subscript() | ast.Attribute() as of, function)) if function in ARRANGING:
-                yield from _held_by(of)
+                yield array
 
 
 def _held_by(node: ast.AST) -> Iterator[ast.Name]:

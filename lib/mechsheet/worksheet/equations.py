@@ -188,11 +188,11 @@ def _match(f: Callable[..., Any], names: tuple[str, ...]) -> None:
 
 def meant(unknowns: Iterable[str]) -> str:
     """Unknowns that are given, with the word of find that one of them may be."""
-    near = next((near[0] for name in unknowns if (near := nearest(name, _WORDS))), "")
+    near = next((near[0] for name in unknowns if (near := nearest(name, WORDS))), "")
     return ", ".join(unknowns) + (f" (did you mean {near}?)" if near else "")
 
 
-_WORDS = ("equals", "guess", "branch", "branches", "unknown", "quantity", "unit", "unknown_unit")
+WORDS = ("equals", "guess", "branch", "branches", "unknown", "quantity", "unit", "unknown_unit")  # of find
 
 
 def _place(name: str, value: Start, unit: str) -> Place:

@@ -17,7 +17,7 @@ from mechsheet.mechanics.brackets import Array, Function
 from mechsheet.mechanics.roots import Counted, Roots, all_roots, nearest_root, real_values, together
 from mechsheet.mechanics.rows import each_alone, of_one, takes_arrays
 from mechsheet.worksheet import numbers
-from mechsheet.worksheet.equations import Start, common_shape, meant, real_numbers
+from mechsheet.worksheet.equations import WORDS, Start, common_shape, meant, real_numbers
 from mechsheet.worksheet.errors import SheetError, function, measured
 from mechsheet.worksheet.system import Solution, solve
 from mechsheet.worksheet.verdict import Verdict, asks_values_only
@@ -286,7 +286,7 @@ def find(  # type: ignore[misc]
     function(f, "find")
     if unknowns:
         if any(given is not None for given in (lo, hi, guess, branch, branches)):
-            names = "equals, guess, branch, branches, unknown, quantity, unit and unknown_unit"
+            names = f"{', '.join(WORDS[:-1])} and {WORDS[-1]}"
             raise SheetError(f"find takes either an interval with {names}, or the unknowns {meant(unknowns)}")
         return solve(f, equals, unit, unknown_unit, unknowns)
     measured(unit), measured(unknown_unit)
