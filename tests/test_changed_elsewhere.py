@@ -39,6 +39,10 @@ IN_PLACE = [  # what changes nothing with the inputs that are recorded
     "w = np.array([[1.0, g.F], [2.0, 3.0]])\nfor v in w:\n    v[0] = min(v[0], g.F)\ny = w.sum(axis=1)[0]",
     "w = np.array([1.0, g.F, 3.0])\nd = {'a': w}\nfor name, v in d.items():\n    v.sort()\ny = w[1] * 1.0",
     "w = np.array([1.0, g.F, 3.0])\nd = {'a': w}\nnp.maximum(w, 1.25 * g.a, out=d['a'])\ny = w[0] * 1.0",
+    "w = [np.array([1.0, g.F]), np.array([2.0, g.a])]\nfor v in w:\n    v *= max(1.0, g.F / 3)\ny = w[0].sum()",
+    "w = np.outer([1.0, 2.0], [1.0, g.F])\nfor v in w:\n    v += max(0.0, g.F - 3)\ny = w.sum()",
+    "w = {'a': np.array([1.0, g.F])}\nfor v in w.values():\n    v += max(0.0, g.F - 3)\ny = w['a'].sum()",
+    "w = np.array([1.0, g.F])\nfor v in (w, x * 1.0):\n    v += max(0.0, g.F - 3)\ny = w.sum()",
     "class Held:\n    pass\nw = np.array([1.0, g.F])\nv = Held()\nv.w = w\nv.w *= max(1.0, g.F / 3)\ny = w[1] * 1.0",
     "w = np.outer([1.0, 2.0], [0.5, g.F])\nw[0, 0] = w[1, 1] = 2.5 * g.a\nnp.fill_diagonal(w, 1.875)\ny = w.sum()",
 ]

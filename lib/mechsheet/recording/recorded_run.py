@@ -202,7 +202,8 @@ class Run(Guarded, OfPositions):
         may_change = any(map(changes, codes))
         unseen = (under | {*touched}) & self.lost.keys() - self.names.keys() if may_change else set[str]()
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
-        held = map(self.names.get, facts.within)
+        holders = map(self.names.get, facts.within)
+        held = (x for x in holders if getattr(x, "ndim", 0) != 1)  # whose elements are numbers
         others = Memory.sharing(self.names, [*arrays, *held]).difference(touched)
         handed = map(self.names.get, under) if sets_of_others(*codes) else ()
         reached = Memory.sharing(self.names, handed).difference(touched)  # which a function may change

@@ -241,19 +241,24 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     yield from _in_place(nodes)
 
 
-def _in_place(nodes: Iterable[ast.AST]) -> Iterator[ast.Name]:
+def _in_place(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     """Names whose values a statement changes in place where these are arrays, parts of them also."""
-    return chain.from_iterable(map(_held_by, _altered(nodes)))
+    altered = [*_altered(nodes)]
+    alone = (turns for turns in _turned(nodes, altered) if isinstance(turns, ast.Tuple | ast.List))
+    return chain.from_iterable(map(_held_by, (*altered, *alone)))
 
 
 def _within(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     """Names of what holds arrays that a statement changes in place: as elements, parts, or for turns."""
     altered = [*_altered(nodes)]
-    own = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}  # a number has another one then
-    names = {array.id for array in altered if isinstance(array, ast.Name) and id(array) not in own}
-    turned = (n.iter for n in nodes if isinstance(n, ast.For) and not names.isdisjoint(_names(n.target)))
     parts = (array for array in altered if not isinstance(array, ast.Name))
-    return chain.from_iterable(map(_held_by, (*turned, *parts)))
+    return chain.from_iterable(map(_held_by, (*_turned(nodes, altered), *parts)))
+
+
+def _turned(nodes: Iterable[ast.AST], altered: Iterable[ast.expr]) -> Iterator[ast.expr]:
+    """What loops go through whose turns change what they take out of it."""
+    names = {array.id for array in altered if isinstance(array, ast.Name)}
+    return (n.iter for n in nodes if isinstance(n, ast.For) and not names.isdisjoint(_names(n.target)))
 
 
 def _altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
@@ -272,7 +277,7 @@ def _altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
 
 
 def _held_by(node: ast.AST) -> Iterator[ast.Name]:
-    """The name of what an expression is a part of, or a view, as a function of it may be."""
+    """Names of what an expression is a part of, or a view, as a function of it may be; of several together."""
     match node:
         case ast.Name():
             yield node
@@ -280,6 +285,8 @@ def _held_by(node: ast.AST) -> Iterator[ast.Name]:
             yield from _held_by(of)
         case ast.Call(function, args):
             yield from chain.from_iterable(map(_held_by, (function, *args)))
+        case ast.Tuple(elts) | ast.List(elts):
+            yield from chain.from_iterable(map(_held_by, elts))
 
 
 @lru_cache(maxsize=4096)
