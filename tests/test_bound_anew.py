@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from in_tex import in_tex
 from own_worksheet import own, recorded
 
 from mechsheet.html import write
@@ -62,7 +63,7 @@ def test_formulas_have_no_number_of_a_name_that_has_another_one_by_now(tmp_path:
     others = {(name, again): read for name, again, read in found if read}
     assert others["z", 0] == {"y"} and others["y", 0] == {"y"} and others["v", 0] == {"v"} and others["r", 0] == {"q"}
     assert others["a", 0] == {"b"} and others["b", 0] == {"a"} and ("w", 0) not in others
-    numbers = re.findall(r'tex="= ([^"]*)"', on_the_page(names["t"]))
+    numbers = re.findall('formula="= ([^"]*)"', in_tex(on_the_page(names["t"])))
     assert any("10.5" not in each and "3.5" in each for each in numbers), "w has the number of the last y"
 
 
@@ -108,7 +109,7 @@ def test_a_choice_declares_what_each_way_gives_the_same_unit(tmp_path: Path) -> 
     assert [name for name, again, _ in found if not again] == ["x", "p", "d", "e"]
     assert (known["p"].unit, known["d"].unit, "h" in known) == ("kN", "kN", False)
     assert known["p"].meaning == "large or middle or small or smallest"
-    assert on_the_page(names["t"]).count("begin{cases}") == 2 * 3  # by symbols, and with numbers
+    assert in_tex(on_the_page(names["t"])).count("begin{cases}") == 2 * 3  # by symbols, and with numbers
     assert [again > 0 for name, again, _ in found if name == "f"] == [True]
 
 

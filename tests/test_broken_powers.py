@@ -11,8 +11,8 @@ from as_script import as_script
 from cells import run
 
 from mechsheet import load
+from mechsheet.document.mathml import NUMBER
 from mechsheet.html import fields as html_fields
-from mechsheet.html.mathml import NUMBER
 from mechsheet.page import fields as page_fields
 from mechsheet.page.values import html
 from mechsheet.units import parse, plain, shown, si

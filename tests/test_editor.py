@@ -222,7 +222,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     area.press("Escape")
     assert is_unchanged()
     editor.edit("g.F * g.L * sin(phi)  # [N*m]", "g.F * g.L * sin(phi) ** 3  # [kN*m]")
-    page.locator("marimo-tex", has_text="sin^{3}").first.wait_for(state="attached")
+    page.locator("math msup", has_text="sin3").first.wait_for(state="attached")
     page.wait_for_function(
         f"() => document.querySelector('svg.ms-chart path[stroke]').getAttribute('d') !== {before!r}"
     )

@@ -4,11 +4,11 @@ import ast
 import json
 import re
 from pathlib import Path
-from typing import get_args
 
 import numpy as np
 import pytest
 from cells import run
+from in_tex import in_tex, typeset
 
 from mechsheet.document.expression import tree
 from mechsheet.document.formula import (
@@ -18,7 +18,6 @@ from mechsheet.document.formula import (
     Code,
     Fraction,
     Measure,
-    Node,
     Number,
     Power,
     Product,
@@ -27,7 +26,6 @@ from mechsheet.document.formula import (
     children,
     is_high,
 )
-from mechsheet.document.latex import LATEX, RULES, latex
 from mechsheet.document.markup import HTML
 from mechsheet.page.values import html
 from mechsheet.worksheet import numbers
@@ -46,24 +44,24 @@ IMPORT = "from mechsheet import typeset\n"
         ("g.P6/(g.k_gc*S_gc*g.eta)", r"\frac{P_{6}}{k_{\mathrm{gc}}\,S_{\mathrm{gc}}\,\eta}"),
         ("O3 + g.L34*exp(1j*phi34(S))", r"O_{3} + L_{34}\,e^{i\,\varphi_{34}(S)}"),
         ("sqrt(X6**2 + Y6**2)", r"\sqrt{X_{6}^{2} + Y_{6}^{2}}"),
-        ('h["GS6_lim"]', r"{h}_{G_{\mathrm{S6,lim}}}"),
-        ('h["phi6_S"] + d["steel"]', r"{h}_{\varphi_{6}} + {d}_{\text{steel}}"),
-        ("np.arctan2(y, x) + log10(x)", r"\operatorname{atan2}(y,\ x) + \operatorname{lg}(x)"),
+        ('h["GS6_lim"]', r"h_{G_{\mathrm{S6,lim}}}"),
+        ('h["phi6_S"] + d["steel"]', r"h_{\varphi_{6}} + d_{\text{steel}}"),
+        ("np.arctan2(y, x) + log10(x)", r"\mathrm{atan2}(y,\ x) + \mathrm{lg}(x)"),
         ("math.pi*np.pi*x/numpy.e", r"\frac{\pi\,\pi\,x}{e}"),
         ("math.sqrt(2*x) + np.inf", r"\sqrt{2\,x} + \infty"),
         ("np.power(a, n) - math.pow(a, 2) + np.square(b)", r"a^{n} - a^{2} + b^{2}"),
-        ("float(math.fabs(x)) + np.real(z)", r"\left|x\right| + \operatorname{Re} z"),
-        ("np.deg2rad(x) + scipy.special.gamma(n)", r"\operatorname{deg2rad}(x) + \Gamma(n)"),
-        ("math.log(x, 10)", r"{\operatorname{log}}_{10}(x)"),
-        ("K_1.T @ x + drive.T", r"K_{1}^{\operatorname{T}}\,x + T(\text{drive})"),
+        ("float(math.fabs(x)) + np.real(z)", r"\left|x\right| + \mathrm{Re}\,z"),
+        ("np.deg2rad(x) + scipy.special.gamma(n)", r"\mathrm{deg2rad}(x) + \Gamma(n)"),
+        ("math.log(x, 10)", r"\mathrm{log}_{10}(x)"),
+        ("K_1.T @ x + drive.T", r"K_{1}^{\mathrm{T}}\,x + T(\text{drive})"),
         ("g.T + g.motor.T", r"T + T_{\mathrm{motor}}"),
-        ("x[1:] - x[:-1]", r"{x}_{k \ge 1} - {x}_{\text{all but last}}"),
-        ("x[-1] + x[2:5] + x[-3:]", r"{x}_{\text{last}} + {x}_{2 \le k < 5} + {x}_{\text{last 3}}"),
-        ("np.array([width(v) for v in x])", r"\left[\operatorname{width}(v) \text{ for each } v \text{ of } x\right]"),
-        ("np.array([d for d, _ in x])", r"\left[d \text{ for each } d \text{ of } x\right]"),
-        ("sum(F * r for F, r in x)", r"\sum_{(F,\ r) \in x} F\,r"),
-        ("len(x) - np.ptp(y)", r"\operatorname{count}(x) - \operatorname{range}(y)"),
-        ("log2(x) + expm1(x)", r"\operatorname{log2}(x) + \operatorname{expm1}(x)"),
+        ("x[1:] - x[:-1]", r"x_{k \ge 1} - x_{\text{all but last}}"),
+        ("x[-1] + x[2:5] + x[-3:]", r"x_{\text{last}} + x_{2 \le k < 5} + x_{\text{last 3}}"),
+        ("np.array([width(v) for v in x])", r"\left[\mathrm{width}(v)\,\text{ for each }v\,\text{ of }x\right]"),
+        ("np.array([d for d, _ in x])", r"\left[d\,\text{ for each }d\,\text{ of }x\right]"),
+        ("sum(F * r for F, r in x)", r"\sum_{(F,\ r) \in x}F\,r"),
+        ("len(x) - np.ptp(y)", r"\mathrm{count}(x) - \mathrm{range}(y)"),
+        ("log2(x) + expm1(x)", r"\mathrm{log2}(x) + \mathrm{expm1}(x)"),
         ("a - (b - c)", r"a - (b - c)"),
         ("a - (b + c)", r"a - (b + c)"),
         ("a + (b - c)", r"a + b - c"),
@@ -89,86 +87,86 @@ IMPORT = "from mechsheet import typeset\n"
         ("(-a*b)**2", r"(-a\,b)^{2}"),
         ("2*3", r"2 \cdot 3"),
         ("1.5e7*x", r"1.5 \cdot 10^{7}\,x"),
-        ("sin(x)**2", r"\sin^{2} (x)"),
+        ("sin(x)**2", r"\sin^{2}\,(x)"),
         ("abs(O1 - O3)", r"\left|O_{1} - O_{3}\right|"),
         ("cross(A - B, F)", r"(A - B) \times F"),
-        ("x % (2*pi)", r"x \bmod 2\,\pi"),
+        ("x % (2*pi)", r"x\text{ mod }2\,\pi"),
         ("group_67.R_A", r"R_{\mathrm{A}}(\text{group 67})"),
-        ("fit[0].F - fit[i + 1].F", r"F({\mathrm{fit}}_{0}) - F({\mathrm{fit}}_{i + 1})"),
+        ("fit[0].F - fit[i + 1].F", r"F(\mathrm{fit}_{0}) - F(\mathrm{fit}_{i + 1})"),
         ("I3i.F + on_bucket.R_B", r"F(I_{\mathrm{3i}}) + R_{\mathrm{B}}(\text{on bucket})"),
         ("[0.5, -1]", r"\left[0.5,\ -1\right]"),
         ("phi3[k]", r"{\varphi_{3}}_{,k}"),
-        ("M[i][12]", r"{{M}_{i}}_{,12}"),
-        ("x[:k] + x[k:g.i]", r"{x}_{i < k} + {x}_{k \le j < i}"),
-        ("x[k + i + j:n + m]", r"{x}_{k + i + j \le p < n + m}"),
-        ("F[0, 1]", r"{F}_{0,\ 1}"),
-        ("P[..., :n_b] + P[..., n_b:]", r"{P}_{k < n_{\mathrm{b}}} + {P}_{k \ge n_{\mathrm{b}}}"),
-        ("alpha[:, None, None] - a[0, :]", r"\alpha - {a}_{0}"),
-        ("y.min(-1)", r"{\min}_{\text{last axis}}(y)"),
+        ("M[i][12]", "{M_{i}}_{,12}"),
+        ("x[:k] + x[k:g.i]", r"x_{i < k} + x_{k \le j < i}"),
+        ("x[k + i + j:n + m]", r"x_{k + i + j \le p < n + m}"),
+        ("F[0, 1]", "F_{0,1}"),
+        ("P[..., :n_b] + P[..., n_b:]", r"P_{k < n_{\mathrm{b}}} + P_{k \ge n_{\mathrm{b}}}"),
+        ("alpha[:, None, None] - a[0, :]", r"\alpha - a_{0}"),
+        ("y.min(-1)", r"\min_{\text{last axis}}(y)"),
         ("sin(phi)*L", r"\sin(\varphi)\,L"),
-        ("L*sin(phi)", r"L\,\sin \varphi"),
-        ("sin(phi)", r"\sin \varphi"),
+        ("L*sin(phi)", r"L\,\sin\,\varphi"),
+        ("sin(phi)", r"\sin\,\varphi"),
         ("sin(phi_S)", r"\sin(\varphi(S))"),
         ("2*sin(a)*cos(b)*c", r"2\,\sin(a)\,\cos(b)\,c"),
-        ("sin(a) + c", r"\sin a + c"),
-        ("arange(g.N)", r"0,\,1\,\ldots\,N - 1"),
+        ("sin(a) + c", r"\sin\,a + c"),
+        ("arange(g.N)", r"0,\ 1\,\ldots\,N - 1"),
         ("arange(1, g.m + 1)", r"1\,\ldots\,m"),
         ("linspace(0, 2*pi, 361)", r"0\,\ldots\,2\,\pi"),
-        ("motion_45(phi1).ds", r"\dot{s}\left[\operatorname{motion\ 45}(\varphi_{1})\right]"),
+        ("motion_45(phi1).ds", r"\dot{s}\left[\mathrm{motion\ 45}(\varphi_{1})\right]"),
         (
             "where(F_b < 0, a, b)",
-            r"\begin{cases} a & \text{if } F_{\mathrm{b}} < 0 \\ b & \text{otherwise} \end{cases}",
+            r"\begin{cases} a & \text{if }F_{\mathrm{b}} < 0 \\ b & \text{otherwise} \end{cases}",
         ),
         (
             "a + where(b < 0, pi, 0) + c",
-            r"a + \left(\begin{cases} \pi & \text{if } b < 0 \\ 0 & \text{otherwise} \end{cases}\right) + c",
+            r"a + \left(\begin{cases} \pi & \text{if }b < 0 \\ 0 & \text{otherwise} \end{cases}\right) + c",
         ),
         (
             "max(where(b < 0, pi, 0), c)",
-            r"\max\left(\begin{cases} \pi & \text{if } b < 0 \\ 0 & \text{otherwise} \end{cases},\ c\right)",
+            r"\max\left(\begin{cases} \pi & \text{if }b < 0 \\ 0 & \text{otherwise} \end{cases},\ c\right)",
         ),
         ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
-        ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi} (M - T)\,\mathrm{d}\varphi"),
-        ("np.ceil(h / b) * b", r"\left\lceil \frac{h}{b}\right\rceil \,b"),
+        ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi}(M - T)\,\mathrm{d}\varphi"),
+        ("np.ceil(h / b) * b", r"\left\lceil\frac{h}{b}\right\rceil\,b"),
         ("dbeta(phi) + dx(phi)", r"d\beta(\varphi) + dx(\varphi)"),
         ("np.nanmin(SAB_k)", r"\min(S_{\mathrm{AB,k}})"),
-        ("np.sum(S_g > 0, axis=1)", r"{\textstyle\sum }_{\text{axis 1}}(S_{\mathrm{g}} > 0)"),
-        ("x.max(axis=0)", r"{\max}_{\text{axis 0}}(x)"),
-        ("sum(F[i]*x[i] for i in range(g.n))", r"\sum_{i = 0}^{n - 1} {F}_{i}\,{x}_{i}"),
-        ("sum(F*2 for F in loads)", r"\sum_{F \in \mathrm{loads}} F \cdot 2"),
-        ("a if 0 < x <= 1 else b", r"\begin{cases} a & \text{if } 0 < x \le 1 \\ b & \text{otherwise} \end{cases}"),
+        ("np.sum(S_g > 0, axis=1)", r"\sum_{\text{axis 1}}(S_{\mathrm{g}} > 0)"),
+        ("x.max(axis=0)", r"\max_{\text{axis 0}}(x)"),
+        ("sum(F[i]*x[i] for i in range(g.n))", r"\sum_{i = 0}^{n - 1}F_{i}\,x_{i}"),
+        ("sum(F*2 for F in loads)", r"\sum_{F \in \mathrm{loads}}F \cdot 2"),
+        ("a if 0 < x <= 1 else b", r"\begin{cases} a & \text{if }0 < x \le 1 \\ b & \text{otherwise} \end{cases}"),
         (
             "np.select([x < 0, x < 1], [a, b], c)",
-            r"\begin{cases} a & \text{if } x < 0 \\ b & \text{if } x < 1 \\ c & \text{otherwise} \end{cases}",
+            r"\begin{cases} a & \text{if }x < 0 \\ b & \text{if }x < 1 \\ c & \text{otherwise} \end{cases}",
         ),
         (
             "where(a > 0, 1, where(b > 0, 2, 3))",
-            r"\begin{cases} 1 & \text{if } a > 0 \\ 2 & \text{if } b > 0 \\ 3 & \text{otherwise} \end{cases}",
+            r"\begin{cases} 1 & \text{if }a > 0 \\ 2 & \text{if }b > 0 \\ 3 & \text{otherwise} \end{cases}",
         ),
-        ("a > 0 and (b or c) and not d", r"a > 0 \text{ and } (b \text{ or } c) \text{ and } \text{not } d"),
-        ("(a > 0) | (b < 1)", r"a > 0 \text{ or } b < 1"),
+        ("a > 0 and (b or c) and not d", r"a > 0\text{ and }(b\text{ or }c)\text{ and }\text{not }d"),
+        ("(a > 0) | (b < 1)", r"a > 0\text{ or }b < 1"),
         ("np.array([[a, b], [c, 1]])", r"\begin{bmatrix} a & b \\ c & 1 \end{bmatrix}"),
         ("np.array([1, a])", r"\left[1,\ a\right]"),
         ("np.linalg.solve(A, b)", r"A^{-1}\,b"),
-        ("group_1.transmission_angle", r"\operatorname{transmission\ angle}(\text{group 1})"),
+        ("group_1.transmission_angle", r"\mathrm{transmission\ angle}(\text{group 1})"),
         ("h_phi6_S", r"h_{\varphi6}(S)"),
         ("group_23", r"\mathrm{group}_{23}"),
         ("g.J_S*eps", r"J_{\mathrm{S}}\,\varepsilon"),
         ("P45(S, L4, branch)", r"P_{45}(S,\ L_{4})"),
-        ("(2*a) % b - c", r"2\,a \bmod b - c"),
-        ("L4_found.value", r"\operatorname{Find}(L_{4})"),
+        ("(2*a) % b - c", r"2\,a\text{ mod }b - c"),
+        ("L4_found.value", r"\mathrm{Find}(L_{4})"),
         ("hypot(a, b/c)", r"\sqrt{a^{2} + \left(\frac{b}{c}\right)^{2}}"),
-        ("hypot(sin(a), b)", r"\sqrt{\sin^{2} (a) + b^{2}}"),
-        ("a/sin(b)*c", r"\frac{a}{\sin b}\,c"),
-        ("(a + sin(b))*c", r"(a + \sin b)\,c"),
-        ("x**sin(y)*z", r"x^{\sin y}\,z"),
+        ("hypot(sin(a), b)", r"\sqrt{\sin^{2}\,(a) + b^{2}}"),
+        ("a/sin(b)*c", r"\frac{a}{\sin\,b}\,c"),
+        ("(a + sin(b))*c", r"(a + \sin\,b)\,c"),
+        ("x**sin(y)*z", r"x^{\sin\,y}\,z"),
         ("sin(dRa)*L", r"\sin(\Delta R_{\mathrm{a}})\,L"),
         ("arcsin(x)", r"\arcsin(x)"),
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
-    assert latex(tree(ast.parse(source, mode="eval").body)) == tex
+    assert typeset(source) == tex
 
 
 def test_brackets_and_dots_stand_in_the_tree():
@@ -190,10 +188,6 @@ def test_the_tree_knows_no_notation_of_a_writer():
             if not isinstance(node, Text | Code):  # which hold what stands in the worksheet
                 words = [word for name in node.__match_args__ if isinstance(word := getattr(node, name), str)]
                 assert not re.search(r"[\\{}&]", "".join(words)), node
-
-
-def test_the_writer_has_a_rule_for_every_node():
-    assert set(RULES) == set(get_args(Node))
 
 
 def read(text, numbers=None):
@@ -221,40 +215,6 @@ def test_lines_with_a_unit_are_the_formulas():
     ]
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "tex"),
-    [
-        (0.66132, "m", r"0.66132\,\mathrm{m}"),
-        (np.pi / 6, "deg", r"30^\circ"),
-        (15348729.0, "MPa", r"15.349\,\mathrm{MPa}"),
-        (0.14, "%", r"14\,\%"),
-        (1.5e-7, "m", r"1.5 \cdot 10^{-7}\,\mathrm{m}"),
-        (-2.5e12, "-", r"-2.5 \cdot 10^{12}"),
-        (129613.7, "N", r"129614\,\mathrm{N}"),
-        (999999.9, "N", r"1000000\,\mathrm{N}"),
-        (0.5 - 2j, "m", r"(0.5,\ -2)\,\mathrm{m}"),
-        (np.array([1.0, 2.0, 3.0]), "N*m", r"1, 2, 3\,\mathrm{N\cdot m}"),
-        (np.array([1.0, np.nan]), "m**2", r"1, \text{none}\,\mathrm{m^{2}}"),
-        (np.arange(10.0), "-", "0, 1, 2, 3, 4, 5, 6, 7, 8, 9"),
-        (np.sin(np.arange(24) * np.pi / 12), "m", r"-1 \,\ldots\, 1\,\mathrm{m}"),
-        (np.array([[1.0, 2.0], [3.0, 4.5]]), "N", r"[1, 2; 3, 4.5]\,\mathrm{N}"),
-        (np.array([np.nan, *np.arange(11.0)]), "m", r"0 \,\ldots\, 10\,\mathrm{m} (1 of 12 \text{none})"),
-        (np.full(11, np.nan), "m", r"\text{none}\,\mathrm{m}"),
-        (np.full(11, 2.0), "m", r"2\,\mathrm{m}"),
-        (np.arange(5) * 1j, "m", r"(0,\ 0 \,\ldots\, 4)\,\mathrm{m}"),
-        (
-            2 * np.exp(1j * np.linspace(0, 2 * np.pi, 9)),
-            "m",
-            r"(-2 \,\ldots\, 2,\ -2 \,\ldots\, 2)\,\mathrm{m}",
-        ),
-        (7, "-", "7"),
-        (-0.0, "m", r"0\,\mathrm{m}"),
-    ],
-)
-def test_value_in_its_display_unit(value, unit, tex):
-    assert numbers.value(value, unit, LATEX) == tex
-
-
 def test_an_unknown_unit_is_told_on_its_line_alone():
     names = run(IMPORT + "a = 1.0  # [mm] fine\np = 2.0  # [MPaa] wrong\nb = 2 * a  # [mm] fine\nshown = typeset()")
     first, second, third = joined(names["shown"]).split('class="ms-line"')[1:]
@@ -267,14 +227,29 @@ def test_an_unknown_unit_is_told_on_its_line_alone():
     [
         (-0.66132, "m", "−0.66132 m"),
         (np.pi / 6, "deg", "30°"),
+        (15348729.0, "MPa", "15.349 MPa"),
         (0.14, "%", "14 %"),
         (-1.5e-7, "m", "−1.5\u202f·\u202f10<sup>−7</sup> m"),
+        (-2.5e12, "-", "−2.5\u202f·\u202f10<sup>12</sup>"),
+        (129613.7, "N", "129614 N"),
+        (999999.9, "N", "1000000 N"),
         (np.inf, "-", "∞"),
         (0.5 - 2j, "m/s**2", "(0.5, −2) m/s<sup>2</sup>"),
+        (np.array([1.0, 2.0, 3.0]), "N*m", "1, 2, 3 N·m"),
         (np.array([1.0, np.nan]), "N*m**-1", "1, none N·m<sup>−1</sup>"),
+        (np.arange(10.0), "-", "0, 1, 2, 3, 4, 5, 6, 7, 8, 9"),
+        (np.sin(np.arange(24) * np.pi / 12), "m", "−1 … 1 m"),
+        (np.array([[1.0, 2.0], [3.0, 4.5]]), "N", "[1, 2; 3, 4.5] N"),
+        (np.array([np.nan, *np.arange(11.0)]), "m", "0 … 10 m (1 of 12 none)"),
+        (np.full(11, np.nan), "m", "none m"),
+        (np.full(11, 2.0), "m", "2 m"),
+        (np.arange(5) * 1j, "m", "(0, 0 … 4) m"),
+        (2 * np.exp(1j * np.linspace(0, 2 * np.pi, 9)), "m", "(−2 … 2, −2 … 2) m"),
+        (7, "-", "7"),
+        (-0.0, "m", "0 m"),
     ],
 )
-def test_value_in_the_page(value, unit, text):
+def test_value_in_its_display_unit(value, unit, text):
     assert numbers.value(value, unit, HTML) == text
 
 
@@ -285,7 +260,8 @@ def joined(shown):
     """
     text = re.sub("<ms-value [^>]*><span>(.*?)</span></ms-value>", r"\1", html(shown))
     text = re.sub("</?ms-unit>", "", re.sub(' id="line-\\w+"', "", text))
-    return text.replace('=||)</marimo-tex><span class="ms-value">', "= ").replace("\u00a0", " ")
+    text = re.sub('<span class="ms-equals">(.?)</span><span class="ms-value">', r" \1 ", in_tex(text))
+    return text.replace("\u00a0", " ")
 
 
 def test_one_position_of_the_fields():
@@ -331,24 +307,24 @@ def test_what_rounding_leaves_of_a_sum_is_no_value(line, nothing):
         + "S, T = np.array([3e-11 - 1e5, -3e5]), np.array([3e-11 - 1e5, 1e-8 - 3e5])\n"
         + f"F = {line}  # [N] left over\nshown = typeset()"
     )
-    assert ('\\approx||)</marimo-tex><span class="ms-value">0 N</span>' in joined(names["shown"])) is nothing
+    assert ("≈ 0 N</span>" in joined(names["shown"])) is nothing
 
 
 @pytest.mark.parametrize(
     ("line", "right"),
     [
-        ("k = 640*MPa / F  # [1/m**2]", r"k = \frac{640\,\mathrm{MPa}}{F}"),
-        ("k = F / (2*kN)  # [-]", r"k = \frac{F}{2\,\mathrm{kN}}"),
-        ("k = F / (2*kN/mm)  # [m]", r"k = \frac{F}{2\,\mathrm{kN/mm}}"),
-        ("d = 3*inch  # [mm]", r"d = 3\,\mathrm{in}"),
-        ("d = -3*mm + 2*inch  # [mm]", r"d = -3\,\mathrm{mm} + 2\,\mathrm{in}"),
-        ("G = 7.5*9.81*m/s**2  # [N]", r"G = 7.5 \cdot 9.81\,\mathrm{m/s^{2}}"),
-        ("f = 50/s  # [Hz]", r"f = 50\,\mathrm{1/s}"),
-        ("q = 1.2*kN*m/(m*s)  # [W/m]", r"q = 1.2\,\mathrm{kN\cdot m/(m\cdot s)}"),
+        ("k = 640*MPa / F  # [1/m**2]", r"k = \frac{640\,\text{MPa}}{F}"),
+        ("k = F / (2*kN)  # [-]", r"k = \frac{F}{2\,\text{kN}}"),
+        ("k = F / (2*kN/mm)  # [m]", r"k = \frac{F}{2\,\text{kN/mm}}"),
+        ("d = 3*inch  # [mm]", r"d = 3\,\text{in}"),
+        ("d = -3*mm + 2*inch  # [mm]", r"d = -3\,\text{mm} + 2\,\text{in}"),
+        ("G = 7.5*9.81*m/s**2  # [N]", r"G = 7.5 \cdot 9.81\,\text{m/s}^{2}"),
+        ("f = 50/s  # [Hz]", r"f = 50\,\text{1/s}"),
+        ("q = 1.2*kN*m/(m*s)  # [W/m]", r"q = 1.2\,\text{kN·m/(m·s)}"),
         ("x = F/kN  # [-]", r"x = \frac{F}{\text{kN}}"),
-        ("A = (3*mm)**2  # [mm**2]", r"A = (3\,\mathrm{mm})^{2}"),
-        ("d = 3 * units.inch * 2  # [mm]", r"d = 3\,\mathrm{in} \cdot 2"),
-        ("T = celsius(20)  # [K]", r"T = 20\,\mathrm{°C}"),
+        ("A = (3*mm)**2  # [mm**2]", r"A = (3\,\text{mm})^{2}"),
+        ("d = 3 * units.inch * 2  # [mm]", r"d = 3\,\text{in} \cdot 2"),
+        ("T = celsius(20)  # [K]", r"T = 20\,\text{°C}"),
         ("d = 3*mm  # [mm]", "d ="),
         ("f = lambda m: 3*m  # [-]", r"f(m) = 3\,m"),
     ],
@@ -384,7 +360,7 @@ def test_solve_block_is_typeset_as_given_and_find():
     text = joined(names["shown"])
     assert r"y(x) = x^{2}" in text or r"y(x) =" in text
     assert r"\text{Given}\quad y(x) = h" in text
-    assert r"x = \operatorname{Find}(x) = 0.5 m</span>" in text
+    assert r"x = \mathrm{Find}(x) = 0.5 m</span>" in text
     assert "found" in text
 
 
@@ -417,8 +393,8 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
     text = joined(names["shown"])
     assert r"\text{Given}\quad x^{2} + y^{2} = h" in text
     assert r"\text{and}\quad x - y = 0" in text
-    assert r"x = \operatorname{Find}(x) = 1.4142 m</span>" in text
-    assert r"k = \operatorname{Minerr}(k) = 2.4 m" in text
+    assert r"x = \mathrm{Find}(x) = 1.4142 m</span>" in text
+    assert r"k = \mathrm{Minerr}(k) = 2.4 m" in text
     assert ">found</span>" in text and ">least squares</span>" in text
     assert "solutions seen by 128 starts" in text and "<i>x</i> in 0..3; <i>y</i> in 0..3" in text
 
@@ -426,11 +402,11 @@ def test_solve_block_of_several_unknowns_is_typeset_equation_by_equation():
 @pytest.mark.parametrize(
     ("lines", "numbers"),
     [
-        ("y = a * b / 4  # [m**2]", r"\frac{2\,\mathrm{m} \cdot (-30\,\mathrm{mm})}{4}"),
-        ("y = (a + b)**2  # [m**2]", r"(2\,\mathrm{m} + (-30\,\mathrm{mm}))^{2}"),
-        ("y = a**2 - b  # [m**2]", r"(2\,\mathrm{m})^{2} - (-30\,\mathrm{mm})"),
-        ("y = sin(w) * a  # [m]", r"\sin(30^\circ) \cdot 2\,\mathrm{m}"),
-        ("y = c[0] * n  # [m]", r"{c}_{0} \cdot 3"),
+        ("y = a * b / 4  # [m**2]", r"\frac{2\,\text{m} \cdot (-30\,\text{mm})}{4}"),
+        ("y = (a + b)**2  # [m**2]", r"(2\,\text{m} + (-30\,\text{mm}))^{2}"),
+        ("y = a**2 - b  # [m**2]", r"(2\,\text{m})^{2} - (-30\,\text{mm})"),
+        ("y = sin(w) * a  # [m]", r"\sin(30^\circ) \cdot 2\,\text{m}"),
+        ("y = c[0] * n  # [m]", r"c_{0} \cdot 3"),
         ("y = f[0] + unknown  # [m]", None),
     ],
 )
@@ -445,18 +421,18 @@ def test_numbers_stand_for_the_symbols(lines, numbers):
     if numbers is None:
         assert "= " + lines[4:10] not in text and "unknown</ms-numbers" not in text
     else:
-        assert f'tex="= {numbers}"' in text
+        assert f'formula="= {numbers}"' in text
 
 
 @pytest.mark.parametrize(
     ("lines", "told"),
     [
-        ("u, v = 2 * mm, x * 3 * kN  # [m] gap, [kNn] force", [r"u = 2\,\mathrm{mm} = 0.002 m", "nearest: kN"]),
-        ("M = array([[1 * kN], [2 * kN]])  # [N]", [r"\begin{bmatrix} 1\,\mathrm{kN} \\ 2\,\mathrm{kN} \end{bmatrix}"]),
-        ("c = 5 * mm if x > 1 else 6 * mm  # [m]", [r"6\,\mathrm{mm} &amp; \text{otherwise}"]),
+        ("u, v = 2 * mm, x * 3 * kN  # [m] gap, [kNn] force", [r"u = 2\,\text{mm} = 0.002 m", "nearest: kN"]),
+        ("M = array([[1 * kN], [2 * kN]])  # [N]", [r"\begin{bmatrix} 1\,\text{kN} \\ 2\,\text{kN} \end{bmatrix}"]),
+        ("c = 5 * mm if x > 1 else 6 * mm  # [m]", [r"6\,\text{mm} & \text{otherwise}"]),
         (
             "def f(x):\n    k = x * 2 * mm\n    return k * 3 * kN  # [J]",
-            [r"f(x) = k \cdot 3\,\mathrm{kN}\quad \text{where}\quad k = x \cdot 2\,\mathrm{mm}"],
+            [r"f(x) = k \cdot 3\,\text{kN}\quad \text{where}\quad k = x \cdot 2\,\text{mm}"],
         ),
     ],
 )
@@ -471,16 +447,16 @@ def test_units_stand_wherever_a_formula_has_them(lines: str, told: list[str]) ->
 
 def test_numbers_of_a_field_are_those_of_the_position_shown():
     names = run(IMPORT + "from numpy import arange\nx = 2 * arange(3)  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
-    assert r'tex="= 3 \cdot 0\,\mathrm{m}"' in joined(names["shown"])
-    assert r'tex="= 3 \cdot 4\,\mathrm{m}"' in html(names["shown"].at(2))
+    assert r'formula="= 3 \cdot 0\,\text{m}"' in joined(names["shown"])
+    assert r'formula="= 3 \cdot 4\,\text{m}"' in joined(names["shown"].at(2))
 
 
 def test_a_number_and_a_point_at_nothing_are_told_apart():
     """0 and 0j are equal, and shown in two ways by the same line."""
     names = run(IMPORT + "x = 0.0  # [m]\ny = 3 * x  # [m]\nshown = typeset()")
-    assert r'tex="= 3 \cdot 0\,\mathrm{m}"' in joined(names["shown"])
+    assert r'formula="= 3 \cdot 0\,\text{m}"' in joined(names["shown"])
     names["x"] = 0j
-    assert r'tex="= 3\,(0,\ 0)\,\mathrm{m}"' in joined(names["shown"])
+    assert r'formula="= 3\,(0,0)\,\text{m}"' in joined(names["shown"])
 
 
 def test_edited_unit_alone_is_seen():
@@ -506,7 +482,7 @@ def test_branch_that_is_meant_stands_in_the_definition():
     text = run(IMPORT + "def P(S, L7, branch=-1):\n    return rrr(S, L7, branch)  # [m] pin\nshown = typeset()")[
         "shown"
     ]
-    assert r"P(S,\,L_{7}) = \operatorname{rrr}(S,\ L_{7},\ -1)" in html(text)
+    assert r"P(S,L_{7}) = \mathrm{rrr}(S,\ L_{7},\ -1)" in in_tex(html(text))
 
 
 @pytest.mark.parametrize(
@@ -548,7 +524,7 @@ def test_a_line_of_several_names_declares_each():
         ("u", "m", "one"), ("v", "s", ""), ("x", "m", ""), ("y", "s", "last"),
     ]  # fmt: skip
     text = joined(names["shown"])
-    assert r"u = {\mathrm{pair}}_{0} = 2 m" in text and r"x = 2\,u = 4 m" in text
+    assert r"u = \mathrm{pair}_{0} = 2 m" in text and r"x = 2\,u = 4 m" in text
     with pytest.raises(SheetError, match=r"<cell \d+>, line 2: 2 names need 2 units"):
         run(IMPORT + "u, v = 1.0, 2.0  # [m] one\ntypeset()")
 
@@ -561,18 +537,16 @@ def test_marimo_lists_the_headings_among_lines(text, kind):
 
 def test_a_function_with_branches_and_names_of_its_own():
     def shown(body):
-        return html(run(IMPORT + f"def f(x):\n{body}  # [m] it\nshown = typeset()")["shown"])
+        return in_tex(html(run(IMPORT + f"def f(x):\n{body}  # [m] it\nshown = typeset()")["shown"]))
 
-    chosen = (
-        r"f(x) = \begin{cases} 1 &amp; \text{if } x &lt; 0 \\ 2 &amp; \text{if } x &lt; 3 \\ x &amp; \text{otherwise}"
-    )
+    chosen = r"f(x) = \begin{cases} 1 & \text{if }x < 0 \\ 2 & \text{if }x < 3 \\ x & \text{otherwise}"
     assert chosen in shown("    if x < 0:\n        return 1\n    elif x < 3:\n        return 2\n    return x")
     assert chosen in shown(
         "    if x < 0:\n        return 1\n    if x < 3:\n        return 2\n    else:\n        return x"
     )
     assert r"f(x) = y + 1\quad \text{where}\quad y = 2\,x" in shown("    y = 2 * x\n    return y + 1")
     loop = shown("    for _ in range(3):\n        x = x / 2\n    return x")
-    assert r"f(x)||)" in loop and "it" in loop, "what is no formula is not shown as one"
+    assert ">f(x)<" in loop and "it" in loop, "what is no formula is not shown as one"
 
 
 def test_a_field_has_positions():

@@ -10,8 +10,8 @@ from playwright.sync_api import Browser, Page, expect
 from test_html_page import SCROLLED, SETTLED, fill, opened, written
 
 from mechsheet.document import formula, parts
+from mechsheet.document.mathml import mathml
 from mechsheet.html import javascript, markdown, values
-from mechsheet.html.mathml import mathml
 from mechsheet.worksheet import inputs
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Summary

@@ -24,9 +24,9 @@ from test_html_page_formulas import as_seen
 
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg, expression, formula, parts
+from mechsheet.document.mathml import inner
 from mechsheet.document.shortened import ENDS
 from mechsheet.html import write
-from mechsheet.html.mathml import inner
 from mechsheet.recording import showing
 from mechsheet.run import arguments, html
 from mechsheet.worksheet import inputs

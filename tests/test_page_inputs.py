@@ -335,16 +335,16 @@ def test_fields_that_change_while_the_page_computes_all_arrive(
 
 def test_a_symbol_tells_what_it_stands_for_and_leads_there(press: Path, left_open: Callable[[Path, str], Page]) -> None:
     page = left_open(press, "as in the document")
-    formula = page.locator("#line-M marimo-tex")
+    formula = page.locator("#line-M math")
     formula.scroll_into_view_if_needed()
-    formula.locator(".katex-html .mathnormal", has_text="F").hover()
+    formula.locator("mi", has_text="F").hover()
     tip = page.locator(".ms-tip:visible")
     expect(tip).to_contain_text("force on the ram, constant over its way")
     expect(tip).to_contain_text("input: 50 kN")
     expect(tip).to_contain_text("in 1 An input")
     expect(page.locator("#line-M")).to_have_class(re.compile("ms-uses"))
     expect(page.locator("#line-s_k")).not_to_have_class(re.compile("ms-(uses|depends)"))
-    formula.locator(".katex-html .mathnormal", has_text="F").click()
+    formula.locator("mi", has_text="F").click()
     expect(page.locator('td[data-input="F"] input')).to_be_focused()
 
 

@@ -1,6 +1,5 @@
 """The slotted link worksheet against the printed table, 50-digit derivatives, and its own limits."""
 
-import ast
 import re
 from dataclasses import replace
 from functools import cache
@@ -14,13 +13,12 @@ from as_script import as_script
 from conftest import examples
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from in_tex import typeset
 from printed import agrees, rows
 from written_cells import Values
 
 from mechsheet.accuracy import exact
 from mechsheet.accuracy.arithmetic import relative_error
-from mechsheet.document.expression import tree
-from mechsheet.document.latex import latex
 from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
@@ -88,9 +86,8 @@ def test_only_a_clockwise_crank_gives_the_printed_signs(sheet):
 
 
 def test_functions_are_typeset_by_their_symbols():
-    call = ast.parse("VC(phi1) - eps_BC(phi1) * rpr(A, B)", mode="eval").body
-    tex = latex(tree(call))
-    assert tex == r"V_{\mathrm{C}}(\varphi_{1}) - \varepsilon_{\mathrm{BC}}(\varphi_{1})\,\operatorname{rpr}(A,\ B)"
+    tex = typeset("VC(phi1) - eps_BC(phi1) * rpr(A, B)")
+    assert tex == r"V_{\mathrm{C}}(\varphi_{1}) - \varepsilon_{\mathrm{BC}}(\varphi_{1})\,\mathrm{rpr}(A,\ B)"
 
 
 def test_every_check_passes(sheet):

@@ -26,7 +26,7 @@ def svg(drawing: Drawing) -> str:
         'stroke-linecap="round" stroke-linejoin="round">'
         f'<g opacity="0.3">{faint}</g>{clear}'
         f'<g fill="currentColor" stroke="none" text-anchor="middle" font-size="{FONT}" '
-        f"font-family=\"KaTeX_Main,'Times New Roman',serif\">{''.join(map(_text, texts))}</g></svg>"
+        f"font-family=\"STIX Two Math,'Times New Roman',serif\">{''.join(map(_text, texts))}</g></svg>"
     )
 
 

@@ -321,7 +321,7 @@ function drawingSVG(drawing) {
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${one(size[0])}" viewBox="${[...low, ...size].map(one).join(" ")}" ` +
     'style="max-width:100%;height:auto" fill="none" stroke="currentColor" stroke-linecap="round" stroke-linejoin="round">' +
     `<g opacity="0.3">${faint}</g>${clear}<g fill="currentColor" stroke="none" text-anchor="middle" font-size="15" ` +
-    `font-family="KaTeX_Main,'Times New Roman',serif">${texts.map(nameSVG).join("")}</g></svg>`;
+    `font-family="STIX Two Math,'Times New Roman',serif">${texts.map(nameSVG).join("")}</g></svg>`;
 }
 
 // A drawing with the numbers of an evaluation: each is a number already, or the key of one or of a field.

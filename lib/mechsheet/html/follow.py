@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document import chart_svg
+from mechsheet.document import chart_svg, mathml
 from mechsheet.document.expression import reads
 from mechsheet.document.markup import HTML, in_words, named
 from mechsheet.document.parts import Line, Section, Text, texts
-from mechsheet.html import mathml, offered, sketched, wording
+from mechsheet.html import offered, sketched, wording
 from mechsheet.html.javascript import otherwise
 from mechsheet.html.put_in import Read, put_in
 from mechsheet.quantities.graph import Guard

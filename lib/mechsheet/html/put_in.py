@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, get_args
 
 from mechsheet.document.expression import substituted
 from mechsheet.document.formula import Apply, Binary, Brackets, Measure, Node, Prefix, Product, Text
-from mechsheet.html.mathml import in_terms
+from mechsheet.document.mathml import in_terms
 from mechsheet.worksheet.lines import Formula
 
 # A number of each kind: with the usual digits or as a power of ten, negative, none. The page tells them alike.

@@ -15,11 +15,11 @@ from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import beside, blocks, fitting
 from mechsheet.document.expression import equation, fields_by_name
 from mechsheet.document.markup import as_written, compared, meant, message, named, once, printed, where
+from mechsheet.document.mathml import mathml
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered
 from mechsheet.html.follow import Follower
-from mechsheet.html.mathml import mathml
 from mechsheet.quantities.graph import Graph
 from mechsheet.quantities.lines import Recording
 from mechsheet.worksheet import numbers, symbol

@@ -18,11 +18,11 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.document import parts
+from mechsheet.document.mathml import symbol
 from mechsheet.document.parts import Line, Section, by_cell
 from mechsheet.html import fields, font, frames, javascript, values
 from mechsheet.html.follow import Follower
 from mechsheet.html.frames import Moved
-from mechsheet.html.mathml import symbol
 from mechsheet.recording.dimensions import dimensions
 from mechsheet.recording.memory import names_of
 from mechsheet.recording.record import continued, record
@@ -134,7 +134,7 @@ def _page(sheet: Worksheet, namespace: dict[str, Any], lists: bool) -> str:
     computed = javascript.module(follower.recording, follower.wanted)
     own = javascript.runtime(*_SCRIPTS)
     script = f'"use strict";\n(async () => {{\n{computed}\n{own}}})();'
-    style = javascript.runtime("page.css")
+    style = javascript.runtime("formulas.css", "page.css")
     address = font.address(_signs(body + json.dumps(follower.specs, ensure_ascii=False)))
     face = f'@font-face{{font-family:"STIX Two Math";src:url({address})format("woff")}}'
     policy = _POLICY.format(f"'sha256-{_digest(script)}'")

@@ -11,8 +11,8 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document.expression import equation, fields_by_name, reads, substituted
 from mechsheet.document.formula import Measure
-from mechsheet.document.latex import latex
 from mechsheet.document.markup import attribute, meant, once, printed, where
+from mechsheet.document.mathml import equal_to, mathml
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import symbol
@@ -34,7 +34,7 @@ def lines(shown: Typeset) -> str:
 
 @lru_cache(maxsize=4096)
 def _equation(line: Formula | Given, single: frozenset[str]) -> str:
-    return latex(equation(line, single))
+    return mathml(equation(line, single))
 
 
 def _single(line: Formula | Given, shown: Typeset) -> frozenset[str]:
@@ -46,15 +46,15 @@ def _formula(line: Formula, value: object, shown: Typeset) -> str:
     single = _single(line, shown)
     meaning = meant(line.meaning, shown.numbers or ())
     if not line.has_value or value is None:
-        text = once(line) if line.again else ""
-        return _line(_equation(line, single), text, meaning, line.number, mistake=line.mistake, line=line)
+        text = f'<span class="ms-value">{once(line)}</span>' if line.again else ""
+        return _line(_equation(line, single) + text, meaning, line.number, mistake=line.mistake, line=line)
     text = "" if shown.numbers is None else _substituted(line, shown.numbers, shown.position)
     namespace = shown.numbers.namespace if shown.numbers else None
     cleared = _cleared(line, value, namespace)
     found = _valued(line, cleared, namespace)
-    equals = r"\approx" if cleared is not value else "" if _is_about(found) else "="
-    told = meaning, line.number, text, line.mistake, line
-    return _line(f"{_equation(line, single)} {equals}".rstrip(), found, *told)
+    sign = "≈" if cleared is not value else "" if _is_about(found) else "="
+    behind = f'<span class="ms-equals">{sign}</span><span class="ms-value">{found}</span>'
+    return _line(_equation(line, single) + behind, meaning, line.number, text, line.mistake, line)
 
 
 def valued(line: Formula, value: object, namespace: Mapping[str, Any] | None) -> str:
@@ -119,12 +119,11 @@ def _substituted(line: Formula, known: Numbers, position: int) -> str:
 def _with_numbers(line: Formula, found: tuple[tuple[str, float | complex, str, type], ...]) -> str:
     numbers = {name: Measure(value / units.parse(unit).factor, unit) for name, value, unit, _ in found}
     node = substituted(line, numbers)
-    return latex(node) if node else ""
+    return equal_to(node) if node else ""
 
 
 def _line(
-    tex: str,
-    value: str = "",
+    formula: str,
     meaning: str = "",
     number: str = "",
     substituted: str = "",
@@ -137,8 +136,7 @@ def _line(
     value is there with the output that holds it. The index leads to the line by its name, symbols
     to what they stand for.
     """
-    more = f'<ms-numbers tex="{escape("= " + substituted)}"></ms-numbers>' if substituted else ""
-    formula = _tex_element(tex) + (f'<span class="ms-value">{value}</span>' if value else "")
+    more = f'<ms-numbers formula="{escape(substituted)}"></ms-numbers>' if substituted else ""
     told = f' <span class="ms-badge ms-FAIL">mistake</span> {escape(mistake)}' if mistake else ""
     said = f"<span>{meaning}{told}</span>" if meaning or told else ""
     said += f'<span class="ms-number">{printed(number)}</span>' if number else ""
@@ -153,7 +151,3 @@ def _symbols(line: Formula) -> str:
     names = (line.name, *reads(line))
     read = {name: symbol.read(name[2:] if name.startswith("g.") else symbol.stem(name)) for name in names}
     return attribute("data-reads", {s.base + s.index: name for name, s in reversed(read.items())})
-
-
-def _tex_element(tex: str) -> str:
-    return f'<marimo-tex class="arithmatex">||(\\displaystyle {escape(tex)}||)</marimo-tex>'

@@ -4,12 +4,22 @@ import re
 from functools import cache
 from pathlib import Path
 
+import marimo as mo
+
+from mechsheet.html import font
+from mechsheet.html.javascript import runtime
 from mechsheet.page.script import element, script
 
 
 def needed(worksheet: Path) -> str:
     """HTML of the scripts of the page, and of its style where the worksheet's ``css_file`` has it not."""
-    return _scripts() + ("" if _is_styled(worksheet) else element("ms-style", css=_style()))
+    formulas = element("ms-formulas", css=runtime("formulas.css"), font=_font())
+    return _scripts() + formulas + ("" if _is_styled(worksheet) else element("ms-style", css=_style()))
+
+
+def _font() -> str:
+    """Address of the font of formulas: a file of marimo's page, which knows those of images alone."""
+    return str(_ADDRESS.findall(mo.image(font.whole()).text)[0])
 
 
 @cache
@@ -24,6 +34,7 @@ def _scripts() -> str:
     )
 
 
+_ADDRESS = re.compile("src=['\"](.*?)['\"]")
 _CSS_FILE = re.compile(r"""css_file\s*=\s*["']([^"']+)["']""")
 
 

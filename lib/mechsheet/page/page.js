@@ -5,9 +5,9 @@
   // The switch may be set before this script is there.
   const withNumbers = () => document.querySelector(".ms-switch")?.checked;
 
-  // The formula once more with numbers for its symbols; typeset only while the reader asks for them.
+  // The formula once more with numbers for its symbols; there only while the reader asks for them.
   class Numbers extends HTMLElement {
-    static observedAttributes = ["tex"];
+    static observedAttributes = ["formula"];
 
     connectedCallback() {
       this.show();
@@ -18,15 +18,22 @@
     }
 
     show() {
-      this.replaceChildren();
-      if (!withNumbers()) return;
-      const tex = document.createElement("marimo-tex");
-      tex.className = "arithmatex";
-      tex.textContent = `||(\\displaystyle ${this.getAttribute("tex")}||)`;
-      this.append(tex);
+      this.innerHTML = withNumbers() ? this.getAttribute("formula") : "";
     }
   }
   customElements.define("ms-numbers", Numbers);
+
+  // Font and style of formulas, which the page in one file has in it.
+  class Formulas extends HTMLElement {
+    connectedCallback() {
+      if (document.querySelector("style.ms-of-formulas")) return;
+      const style = document.createElement("style");
+      Object.assign(style, { className: "ms-of-formulas", textContent: this.getAttribute("css") });
+      document.head.append(style);
+      document.fonts.add(new FontFace("STIX Two Math", `url(${this.getAttribute("font")})`));
+    }
+  }
+  customElements.define("ms-formulas", Formulas);
 
   // The style of a worksheet that names no style sheet, as marimo would have it in the page: it reaches formulas too.
   class Style extends HTMLElement {

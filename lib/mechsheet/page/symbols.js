@@ -9,17 +9,21 @@
   const inputOf = (name) => document.querySelector(`td[data-input="${name.slice(2)}"]`);
   const placeOf = (name) => (name.startsWith("g.") ? inputOf(name) : document.getElementById(`line-${name}`));
 
+  // Of a symbol with an exponent its own.
+  const lettersOf = (e) => (e.localName === "msubsup" ? [...e.children].slice(0, 2) : [e]).map((part) => part.textContent.trim()).join("");
+
   // The largest part of a formula round an element that is a symbol of its line: of a base with an index both.
   function symbolAt(event) {
     const path = event.composedPath();
     const line = path.find((each) => each.matches?.(".ms-line[data-reads]"));
-    if (!line || path[0].getRootNode() === document) return null;
+    if (!line || !path[0].closest?.("math")) return null;
     const names = told(line);
     let found = null;
-    for (let e = path[0]; e && !e.matches(".base, .katex-html"); e = e.parentElement) {
-      const text = e.textContent.replace(/[\u200b\s]/g, "");
+    for (let e = path[0]; e.localName !== "math"; e = e.parentElement) {
+      const text = lettersOf(e);
       if (text.length > LETTERS) break;
       if (Object.hasOwn(names, text) && placeOf(names[text])) found = names[text];
+      if (found && e.matches("msubsup > :nth-child(3)")) break; // an exponent is a symbol of its own
     }
     return found;
   }

@@ -1,4 +1,4 @@
-"""Formulas in MathML: a rule for each kind of node of the tree, with the signs that LaTeX gives the page."""
+"""Formulas in MathML: a rule for each kind of node of the tree."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -68,6 +68,11 @@ def mathml(node: Node) -> str:
     """A formula in MathML, with the space of a line of its own; one that may go on in the next line in a span."""
     text = f"{_BEGIN}{in_terms(node)}{_END}"
     return f'<span class="ms-terms">{text}</span>' if _BREAK in text else text
+
+
+def equal_to(node: Node) -> str:
+    """A formula behind the sign that it is equal, as `mathml` writes it."""
+    return f"{_BEGIN}<mo>=</mo>{in_terms(node)}{_END}"
 
 
 def in_terms(node: Node) -> str:
