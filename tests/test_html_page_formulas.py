@@ -13,9 +13,10 @@ import numpy as np
 import pytest
 from own_worksheet import own
 
+from mechsheet.document import mathml
 from mechsheet.document.expression import reads, substituted, tree
 from mechsheet.document.formula import Measure, Node, Power, Row, Symbol, Text
-from mechsheet.html import font, javascript, markdown, mathml, write
+from mechsheet.html import font, javascript, markdown, write
 from mechsheet.html.put_in import Read, put_in
 from mechsheet.worksheet import numbers
 from mechsheet.worksheet.lines import Formula
