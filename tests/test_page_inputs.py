@@ -344,6 +344,10 @@ def test_a_symbol_tells_what_it_stands_for_and_leads_there(press: Path, left_ope
     expect(tip).to_contain_text("in 1 An input")
     expect(page.locator("#line-M")).to_have_class(re.compile("ms-uses"))
     expect(page.locator("#line-s_k")).not_to_have_class(re.compile("ms-(uses|depends)"))
+    formula.locator("mi", has_text="M").hover()
+    expect(tip).to_contain_text("moment")
+    formula.locator("mi", has_text="M").click()
+    expect(tip, "it would lie over the line that the editor opens there").to_have_count(0)
     formula.locator("mi", has_text="F").click()
     expect(page.locator('td[data-input="F"] input')).to_be_focused()
 

@@ -54,6 +54,7 @@ NUMBER = Notation(
 _ENDING, _BLANK = re.compile("^ | $"), "\u00a0"  # a plain blank at the end of a text is left out
 _EMPTY = re.compile("<(mn|mtext)></\\1>")
 _THIN, _COMMA, _QUAD = '<mspace width=".17em"/>', '<mo separator="true">,</mo>', '<mspace width="1em"/>'
+_DOTTED = f'{_THIN}<mo lspace="0" rspace="0">…</mo>{_THIN}'
 _FORM = ' form="{}"'  # of a bar, which may begin or end
 _GREEK = re.compile(f"([{LETTERS}])")
 _UPRIGHT = re.compile("[A-ZΓΔΘΛΞΠΣΥΦΨΩ]")  # Greek capitals, and letters of an index
@@ -219,7 +220,7 @@ def _prefix(node: Prefix) -> str:
 
 def _range(node: Range) -> str:
     first = (_COMMA + _THIN).join(map(inner, node.first))
-    return f"<mrow>{first}{_THIN}<mo>…</mo>{_THIN}{inner(node.last)}</mrow>"
+    return f"<mrow>{first}{_DOTTED}{inner(node.last)}</mrow>"
 
 
 def _cases(node: Cases) -> str:

@@ -92,7 +92,8 @@
     const name = !getSelection().toString() && symbolAt(event);
     if (!name) return;
     const of = placeOf(name);
-    if (!of.contains(event.target)) event.preventDefault(); // in the editor a click elsewhere edits the line
+    if (of.contains(event.target)) return clear(); // in the editor this edits the line
+    event.preventDefault();
     of.dispatchEvent(new Event("ms-lead", { bubbles: true }));
     of.scrollIntoView({ block: "center" });
     of.querySelector("marimo-ui-element > *")?.shadowRoot?.querySelector("input, select")?.focus({ preventScroll: true });
