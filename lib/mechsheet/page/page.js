@@ -107,6 +107,8 @@
     });
   }
 
+  selectByClass();
+
   // marimo's controls have their labels beside them: a screen reader would say a number alone. They are drawn when they
   // are, late and more than once.
   function call(host) {
