@@ -42,15 +42,11 @@ def in_tex(html: str) -> str:
     """HTML with the MathML in it, the parts of a long formula together, as TeX."""
     html = _ASKED.sub(lambda told: f' formula="{unescape(told[1])}"', html)
     whole = _TERMS.sub(lambda terms: terms[1].replace('</math><wbr/><math displaystyle="true">', ""), html)
-    return _MATH.sub(lambda math: _read(ElementTree.fromstring(_named(math[0]))).strip(), whole)
-
-
-def _named(math: str) -> str:
-    return unescape(math.replace("&lt;", "&amp;lt;").replace("&gt;", "&amp;gt;").replace("&amp;", "&amp;amp;"))
+    return _MATH.sub(lambda math: _read(ElementTree.fromstring(math[0])).strip(), whole)
 
 
 def _read(element: ElementTree.Element) -> str:
-    parts, own = [_read(child) for child in element], unescape(element.text or "")
+    parts, own = [_read(child) for child in element], element.text or ""
     match element.tag, parts:
         case "mi", _:
             return _letters(own, upright=element.get("mathvariant") == "normal")
@@ -102,7 +98,8 @@ def _base(text: str) -> str:
 
 def _sign(element: ElementTree.Element, own: str) -> str:
     sign = _SIGNS.get(own, own)
-    return sign if own in _ACCENTS or own in f"{_BRACKETS},…∑∏∫" else f" {sign} "
+    alone = own in _ACCENTS or own in f"{_BRACKETS},…∑∏∫" or element.get("form") == "prefix"
+    return sign if alone else f" {sign} "
 
 
 def _row(elements: list[ElementTree.Element], parts: list[str]) -> str:

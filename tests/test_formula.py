@@ -163,6 +163,13 @@ IMPORT = "from mechsheet import typeset\n"
         ("x**sin(y)*z", r"x^{\sin\,y}\,z"),
         ("sin(dRa)*L", r"\sin(\Delta R_{\mathrm{a}})\,L"),
         ("arcsin(x)", r"\arcsin(x)"),
+        ("omega3**2", r"\omega_{3}^{2}"),
+        ("1.5e-7*x", r"1.5 \cdot 10^{-7}\,x"),
+        ("WIDTH_2", r"\mathrm{WIDTH}_{2}"),
+        ("floor(x)", r"\lfloor x\rfloor"),
+        ("phi34[k] + M[1, 2]", r"{\varphi_{34}}_{,k} + M_{1,2}"),
+        ("np.prod(a) * np.prod([f(x) for x in u])", r"\prod(a)\,\prod_{x \in u}f(x)"),
+        ("max(a, key=lambda x: x)", r"\max(a,\ \text{key} = (x \mapsto x))"),
     ],
 )
 def test_expression_as_a_textbook_prints_it(source, tex):
