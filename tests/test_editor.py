@@ -210,6 +210,7 @@ def edit_in_place(editor):
 def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
 
     page = editor.page
+    font = page.locator("ms-formulas").get_attribute("font")
     editor.expect_last_moment("420")
     area, is_unchanged = edit_in_place(editor)
     curve = page.locator("svg.ms-chart path[stroke='#3b82d0']").first
@@ -241,6 +242,7 @@ def test_edited_number_formula_and_unit_change_everything(editor, tmp_path):
     assert max(v for v in values if v < 1) == pytest.approx(0.42)
     page.get_by_text("Page in one file").click()  # which would have the lines of the file, where nothing is saved
     editor.expect("lever.html is not written: the file of this worksheet is another one than this page")
+    assert page.locator("ms-formulas").get_attribute("font") == font, "each title block has a file of its own"
 
 
 def test_a_line_is_written_with_the_import_of_what_it_calls(editor):

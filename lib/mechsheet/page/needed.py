@@ -3,6 +3,7 @@
 import re
 from functools import cache
 from pathlib import Path
+from threading import local
 
 import marimo as mo
 
@@ -18,8 +19,13 @@ def needed(worksheet: Path) -> str:
 
 
 def _font() -> str:
-    """Address of the font of formulas: a file of marimo's page, which knows those of images alone."""
-    return str(_ADDRESS.findall(mo.image(font.whole()).text)[0])
+    """Address of the font of formulas: a file of marimo's page, which knows those of images alone.
+
+    There is one for each page: marimo keeps it as long as something refers to it.
+    """
+    if not hasattr(_page, "font"):
+        _page.font = mo.image(font.whole())
+    return str(_ADDRESS.findall(_page.font.text)[0])
 
 
 @cache
@@ -34,6 +40,7 @@ def _scripts() -> str:
     )
 
 
+_page = local()  # every page computes in a thread of its own
 _ADDRESS = re.compile("src=['\"](.*?)['\"]")
 _CSS_FILE = re.compile(r"""css_file\s*=\s*["']([^"']+)["']""")
 
