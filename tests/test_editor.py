@@ -892,6 +892,15 @@ def test_a_unit_that_declares_nothing_and_what_only_a_last_line_would_show_are_t
     ]
 
 
+def test_a_class_that_looks_as_one_of_inputs_but_is_none_is_told():
+    """The worksheet had no inputs then, and nothing said why."""
+    meant = "class Given:\n    # 1.1 Lever\n    F: float = 2.0  # [N] force; > 0\n    n: int = 3  # [-] number"
+    others = ("@dataclass\nclass P:\n    x: float = 1.0  # [m] place", "class Q:\n    x: float = 1.0  # place")
+    cells = source.of_texts(tuple((text, "") for text in (meant, *others, "class R:\n    pass")))
+    told = "Given is no class of inputs: write @inputs in the line above it"
+    assert [tuple(each) for each in left_out(cells, {})] == [(0, 1, told)]
+
+
 def test_a_name_of_a_formula_s_own_is_no_number_of_a_cell():
     code = "f = lambda rate: 2 * rate  # [-] twice\ntypeset()"
     found = bar(code, "rate = 3.0")

@@ -134,6 +134,13 @@ def test_input_without_a_unit_is_an_error_that_names_the_line():
         run("from mechsheet import inputs\n@inputs\nclass A:\n    x: float = 1.0  # metre\n")
 
 
+def test_inputs_called_elsewhere_says_where_it_stands():
+    """It was a StopIteration."""
+    names = run("from mechsheet import inputs\nclass A:\n    x: float = 1.0  # [m] length\n")
+    with pytest.raises(SheetError, match="write @inputs in the line above class A"):
+        run("g = inputs(A)", names)
+
+
 def test_an_input_without_its_type_is_told_and_not_dropped():
     with pytest.raises(SheetError, match=r", line 4: input x needs a type, such as x: float = 1.0"):
         run("from mechsheet import inputs\n@inputs\nclass A:\n    x = 1.0  # [m] length\n")

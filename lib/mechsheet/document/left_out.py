@@ -14,7 +14,7 @@ from mechsheet.worksheet import inputs, source
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_shown import CHECKS
-from mechsheet.worksheet.lines import Formula, formulas, names_read, undeclaring
+from mechsheet.worksheet.lines import Formula, declared, formulas, names_read, undeclaring
 from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.typeset import typeset_lines
 from mechsheet.worksheet.unbracketed import unbracketed
@@ -39,14 +39,14 @@ _UNREAD = "this [unit] is read by nobody: it is read behind NAME = FORMULA, in a
 
 def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:
     """What the cells of a worksheet leave out, from the namespace ``names`` of its run."""
-    cells, declared = list(cells), dict[int, list[Formula]]()
+    cells, lines = list(cells), dict[int, list[Formula]]()
     for n, cell in enumerate(cells):
         try:
-            declared[n] = [line for line in formulas(cell) if isinstance(line, Formula)]
+            lines[n] = [line for line in formulas(cell) if isinstance(line, Formula)]
         except SheetError as error:
             yield LeftOut(n, None, str(error))
-    met = {name for found in declared.values() for line in found for name in names_read(line)}
-    for n, found in declared.items():
+    met = {name for found in lines.values() for line in found for name in names_read(line)}
+    for n, found in lines.items():
         own, last = {line.name for line in found}, max(typeset_lines(cells[n]), default=0)
         below = [line.name for line in found if line.expression.lineno > last]
         if below:
@@ -68,6 +68,8 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                 case ast.Assign([ast.Name(name)]) if name in met - own and _is_quantity(names.get(name)):
                     why = f"{name} stands in formulas and is not shown: end its line in # [unit] meaning"
                     yield LeftOut(n, node.lineno, why)
+                case ast.ClassDef(name, body=body, decorator_list=[]) if _of_inputs(cells[n], body):
+                    yield LeftOut(n, node.lineno, f"{name} is no class of inputs: write @inputs in the line above it")
                 case ast.ClassDef(name):
                     told = {field: why for field, _, why in inputs.unlikely(names.get(name))}
                     for each in node.body:
@@ -141,6 +143,13 @@ def _unbracketed(cell: source.Cell, node: ast.stmt, names: Mapping[str, Any]) ->
 
 
 _NAMED = (ast.Name, ast.Attribute)
+
+
+def _of_inputs(cell: source.Cell, body: Iterable[ast.stmt]) -> bool:
+    """Whether the lines of a class are written as those of inputs are, each with its value and its unit."""
+    given = [node for node in body if isinstance(node, ast.AnnAssign)]
+    comments = [cell.comments.get(node.end_lineno or node.lineno, "") for node in given]
+    return bool(given) and all(node.value and declared(text) for node, text in zip(given, comments, strict=True))
 
 
 def _bare(node: ast.stmt) -> str:

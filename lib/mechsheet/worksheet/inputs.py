@@ -98,7 +98,9 @@ def units_of(cls: type) -> dict[str, str]:
 
 def _declared(cls: type, cell: source.Cell, names: Mapping[str, Any]) -> tuple[Input, ...]:
     nodes = (node for statement in cell.body for node in ast.walk(statement))  # of a setup too, which is a block
-    body = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__)
+    body = next((node for node in nodes if isinstance(node, ast.ClassDef) and node.name == cls.__name__), None)
+    if body is None:
+        raise SheetError(f"write @inputs in the line above class {cls.__name__}: its units are read where it stands")
     folder = str(Path(names.get("__file__") or "x").resolve().parent)
     found, places, section, line = list[Input](), dict[str, str](), "", body.lineno
     written = dict[str, tuple[str, str, str]]()  # place, what is written there, and the unit of each
