@@ -1,5 +1,6 @@
 """A worksheet as a function: the right cells, the right values, the right machine."""
 
+import re
 import runpy
 import shutil
 import subprocess
@@ -53,6 +54,22 @@ def test_what_more_than_the_inputs_needs_is_a_result(tmp_path):
         "@app.cell\ndef _(g, k):\n    c = k * g.a\n    return (c,)\n"
     )
     assert load(path).results == ["k", "c"]
+
+
+def test_the_cell_of_the_inputs_gives_nothing_else(tmp_path):
+    """It does not run where others are given: what stood there kept its number in sweeps and the workbook, unsaid."""
+    path = tmp_path / "own.py"
+    start = "import marimo\napp = marimo.App()\nwith app.setup:\n    from mechsheet import inputs\n\n    @inputs\n"
+    start += "    class Given:\n        a: float = 1.0  # [m] length\n\n@app.cell\ndef _():\n    "
+    for line, end, told in (
+        ("g = Given()\n    _k = 2\n    k = 3 * g.a", "g, k", "12: g, the inputs, needs a cell of its own: move k"),
+        ("g = Given(a=5.0)", "(g,)", "12: values of inputs stand in the lines of their class: Given() begins"),
+    ):
+        path.write_text(f"{start}{line}\n    return {end}\n\n@app.cell\ndef _(g):\n    c = 2 * g.a\n    return (c,)\n")
+        with pytest.raises(SheetError, match=re.escape(f"own.py, line {told}")):
+            load(path)
+    path.write_text(f"{start}g = Given()\n    return (g,)\n\n@app.cell\ndef _(g):\n    c = 2 * g.a\n    return (c,)\n")
+    assert load(path).results == ["c"]
 
 
 def test_comments_are_those_of_pythons_own_tokens():

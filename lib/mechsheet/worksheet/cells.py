@@ -21,7 +21,7 @@ from mechsheet.worksheet.errors import SheetError, as_given, nearest, raised
 from mechsheet.worksheet.marimo_on_use import Marimo
 from mechsheet.worksheet.no_inputs import NoInputs, declared_in, in_a_cell
 from mechsheet.worksheet.numbers import existing
-from mechsheet.worksheet.refused_cells import refuse_misread, refuse_twice, refuse_unread
+from mechsheet.worksheet.refused_cells import refuse_beside_inputs, refuse_misread, refuse_twice, refuse_unread
 from mechsheet.worksheet.source import bound, constant, functions, is_app, parsed, texts
 
 _SECTION = re.compile(r"^\s*## +(.*\S)", re.MULTILINE)
@@ -319,6 +319,8 @@ def read(path: Path) -> Worksheet:
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
     title, own = _title(tree) or path.stem, tuple(_cells(tree, text, path))
+    if declared_in(common):
+        refuse_beside_inputs([cell.lines for cell in own], path)
     return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines), Begun(common))
 
 
