@@ -901,6 +901,13 @@ def test_a_class_that_looks_as_one_of_inputs_but_is_none_is_told():
     assert [tuple(each) for each in left_out(cells, {})] == [(0, 1, told)]
 
 
+def test_what_stands_beside_the_inputs_is_told():
+    """The page follows it, and neither a sweep nor the workbook would."""
+    found = Cells(IMPORTS, GIVEN, "g = Bar()\nk = 3 * g.L", "A = k * g.L  # [m**2] area\ntypeset()")
+    own = "c2: line 1, g = Bar(): g, the inputs, needs a cell of its own: move k to another one"
+    assert own in found.texts(told_by.unsaid(found.cells, found.names))
+
+
 def test_a_name_of_a_formula_s_own_is_no_number_of_a_cell():
     code = "f = lambda rate: 2 * rate  # [-] twice\ntypeset()"
     found = bar(code, "rate = 3.0")

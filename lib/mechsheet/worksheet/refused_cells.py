@@ -1,7 +1,7 @@
 """What is refused of a worksheet's file before any cell of it runs: what is no cell, is misread, or is given twice."""
 
 import ast
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from textwrap import dedent
 
@@ -65,23 +65,27 @@ def refuse_misread(statements: Iterable[ast.stmt], path: Path) -> None:
 
 
 def refuse_beside_inputs(cells: Iterable[Sequence[ast.stmt]], path: Path) -> None:
-    """Raise SheetError for what the cell of g, the inputs, gives beside it, and for values that stand there.
+    """Raise SheetError for what stands `beside_inputs` in a cell."""
+    for lines in cells:
+        for at, why in beside_inputs(lines):
+            raise SheetError(f"{mistakes.place(path, at)}: {why}")
+
+
+def beside_inputs(lines: Sequence[ast.stmt]) -> Iterator[tuple[int, str]]:
+    """What the cell of g, the inputs, gives beside it, and values that stand there: the line, and why it may not.
 
     Where other inputs are given, that cell does not run: both would be those of the page alone.
     """
-    for lines in cells:
-        for line in (line for line in lines if "g" in bound(line)):
-            at = mistakes.place(path, line.lineno)
-            others = dict.fromkeys(name for each in lines for name in bound(each) if name != "g" and name[0] != "_")
-            if others:
-                names = ", ".join(others)
-                raise SheetError(f"{at}: g, the inputs, needs a cell of its own: move {names} to another one")
-            match line:
-                case ast.Assign(_, ast.Call(ast.Name(name), args, keywords)) if args or keywords:
-                    given = [*args, *(keyword.value for keyword in keywords)]
-                    if not any(isinstance(node, ast.Name) for each in given for node in ast.walk(each)):
-                        why = f"values of inputs stand in the lines of their class: {name}() begins with these"
-                        raise SheetError(f"{at}: {why}")
+    for line in (line for line in lines if "g" in bound(line)):
+        others = dict.fromkeys(name for each in lines for name in bound(each) if name != "g" and name[0] != "_")
+        if others:
+            yield line.lineno, f"g, the inputs, needs a cell of its own: move {', '.join(others)} to another one"
+        match line:
+            case ast.Assign(_, ast.Call(ast.Name(name), args, keywords)) if args or keywords:
+                given = [*args, *(keyword.value for keyword in keywords)]
+                if not any(isinstance(node, ast.Name) for each in given for node in ast.walk(each)):
+                    why = f"values of inputs stand in the lines of their class: {name}() begins with these"
+                    yield line.lineno, why
 
 
 _DEEPEST = 300  # levels of a statement: each takes some of Python's thousand calls in one another
