@@ -17,6 +17,41 @@ GUIDE = HITCH.with_name("guide.py")
 LEVER = Path(launcher.__file__).parent / "run" / "new_worksheet.txt"
 
 
+BESIDE = """import marimo
+app = marimo.App()
+with app.setup:
+    from mechsheet import ask, inputs, read
+
+    @inputs
+    class Given:
+        a: float = 1.0  # [m] length
+
+@app.cell
+def _():
+    k = 3.0
+    form = ask(Given)
+    form
+    return form, k
+
+@app.cell
+def _(form):
+    g = read(Given, form)
+    return (g,)
+
+@app.cell
+def _(g, k):
+    c = k * g.a  # [m] all
+    return (c,)
+"""
+
+
+def test_what_stands_beside_the_form_is_a_number_as_any_other(tmp_path):
+    """Asked again for it, the form answered once more, and so without an end."""
+    (tmp_path / "own.py").write_text(BESIDE, encoding="utf-8")
+    told = as_script(tmp_path / "own.py", "--a=4", "--want=c")
+    assert (told.stdout, told.returncode) == ("c = 12 m, all\n", 0), told.stderr
+
+
 # The program that marimo makes of a worksheet, which is what it was before its cells were run from the file.
 BY_MARIMO = "import runpy, sys; del sys.argv[0]; runpy.run_path(sys.argv[0], run_name='sheet')['app'].run()"
 

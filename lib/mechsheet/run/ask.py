@@ -71,8 +71,8 @@ def _given(cls: type) -> Scene:
     Raises SheetError for an argument of another form or an unreadable scene file.
     """
     worksheet: str = cls.__worksheet__  # type: ignore[attr-defined]
-    if arguments.is_script(worksheet):
-        return _of_script(worksheet, declared(cls))
+    if arguments.is_script(worksheet):  # answered once: the cell that asks may be needed for what else it gives
+        return Scene() if ending.is_over() else _of_script(worksheet, declared(cls))
     if "marimo" not in sys.modules:
         return Scene()
     import marimo as mo  # on use: a worksheet called as a function needs it not
