@@ -17,7 +17,7 @@ _KNOWN = ["sin", "cos", "tan", "arcsin", "arccos", "arctan", "arg", "exp", "ln",
 _SIGNS = {
     "−": "-", "⋅": r"\cdot", "×": r"\times", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "∈": r"\in", "∉": r"\notin",
     "↦": r"\mapsto", "…": r"\ldots", "∑": r"\sum", "∏": r"\prod", "∫": r"\int", "{": r"\{", "}": r"\}", "‖": r"\Vert",
-    "⌊": r"\lfloor", "⌋": r"\rfloor", "⌈": r"\lceil", "⌉": r"\rceil", "∞": r"\infty", "<": "<", ">": ">",
+    "⌊": r"\lfloor", "⌋": r"\rfloor", "⌈": r"\lceil", "⌉": r"\rceil", "∞": r"\infty",
 }  # fmt: skip
 _SPACES = {".17em": r"\,", "1em": r"\quad "}
 _ACCENTS = {"˙": r"\dot", "¨": r"\ddot", "‾": r"\overline"}
