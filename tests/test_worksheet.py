@@ -1,6 +1,5 @@
 """A worksheet as a function: the right cells, the right values, the right machine."""
 
-import re
 import runpy
 import shutil
 import subprocess
@@ -45,31 +44,87 @@ def test_where_the_inputs_are_given_no_form_is_made(path):
     assert {"form", "g"}.isdisjoint(sheet.results)
 
 
+WITH_INPUTS = """\
+import marimo
+app = marimo.App()
+with app.setup:
+    from dataclasses import replace
+    import mechsheet
+    from mechsheet import ask, inputs, read
+    from mechsheet import read as read_as
+
+    @inputs
+    class Given:
+        a: float = 1.0  # [m] length
+
+    form = ask(Given)
+
+@app.cell
+def _():
+    {}
+    return
+
+@app.cell
+def _(g):
+    c = 2 * g.a
+    return (c,)
+"""
+
+
 def test_what_more_than_the_inputs_needs_is_a_result(tmp_path):
     path = tmp_path / "own.py"
-    path.write_text(
-        "import marimo\napp = marimo.App()\nwith app.setup:\n    from mechsheet import inputs\n\n    @inputs\n"
-        "    class Given:\n        a: float = 1.0  # [m] length\n\n@app.cell\ndef _():\n    k = 2.0\n    form = 3\n"
-        "    return form, k\n\n@app.cell\ndef _(form, k):\n    g = Given(form * k)\n    return (g,)\n\n"
-        "@app.cell\ndef _(g, k):\n    c = k * g.a\n    return (c,)\n"
-    )
+    given = "k, form_2 = 2.0, ask(Given)\n    return form_2, k\n\n"
+    given += "@app.cell\ndef _(form_2, k):\n    print(k)\n    g = read(Given, form_2)"
+    path.write_text(WITH_INPUTS.format(given).replace("c = 2 * g.a", "c = k * g.a").replace("def _(g)", "def _(g, k)"))
     assert load(path).results == ["k", "c"]
 
 
-def test_the_cell_of_the_inputs_gives_nothing_else(tmp_path):
+@pytest.mark.parametrize("line", ["k, g = 3.0, Given()", "g = Given()\n    _k = 2\n    k = 3 * g.a"])
+def test_the_cell_of_the_inputs_gives_nothing_else(tmp_path, line):
     """It does not run where others are given: what stood there kept its number in sweeps and the workbook, unsaid."""
     path = tmp_path / "own.py"
-    start = "import marimo\napp = marimo.App()\nwith app.setup:\n    from mechsheet import inputs\n\n    @inputs\n"
-    start += "    class Given:\n        a: float = 1.0  # [m] length\n\n@app.cell\ndef _():\n    "
-    for line, end, told in (
-        ("g = Given()\n    _k = 2\n    k = 3 * g.a", "g, k", "12: g, the inputs, needs a cell of its own: move k"),
-        ("g = Given(a=5.0)", "(g,)", "12: values of inputs stand in the lines of their class: Given() begins"),
-    ):
-        path.write_text(f"{start}{line}\n    return {end}\n\n@app.cell\ndef _(g):\n    c = 2 * g.a\n    return (c,)\n")
-        with pytest.raises(SheetError, match=re.escape(f"own.py, line {told}")):
-            load(path)
-    path.write_text(f"{start}g = Given()\n    return (g,)\n\n@app.cell\ndef _(g):\n    c = 2 * g.a\n    return (c,)\n")
-    assert load(path).results == ["c"]
+    path.write_text(WITH_INPUTS.format(line))
+    with pytest.raises(SheetError, match="g, the inputs, needs a cell of its own: move k to another one"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "g = Given(a=5.0)",
+        "g = Given(form.value)",
+        "g = replace(Given(), a=5.0)",
+        "g = Given() if form else Given(2.0)",
+        "_g = Given(2.0)\n    g = _g",
+        "if form:\n        g = read(Given, form)",
+        "print(g := Given(2.0))",
+        "for g in [Given(2.0)]:\n        pass",
+        "g: Given = Given(2.0)",
+        "g = form",
+    ],
+)
+def test_the_inputs_begin_with_the_values_of_their_class(tmp_path, line):
+    """Others are those of a run alone: sweeps, single results and the workbook begin with those of the class."""
+    path = tmp_path / "own.py"
+    path.write_text(WITH_INPUTS.format(line))
+    with pytest.raises(SheetError, match=r"own.py, line 1[78]: inputs begin with the values of their class"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "g = Given()",
+        "g: Given = Given()",
+        "g = read(Given, form)",
+        "g = mechsheet.read(Given, form)",
+        "g = read_as(Given, form)",
+    ],
+)
+def test_the_inputs_are_read_or_those_of_their_class(tmp_path, line):
+    path = tmp_path / "own.py"
+    path.write_text(WITH_INPUTS.format(line))
+    assert load(path).run_whole()["c"] == 2.0
 
 
 def test_comments_are_those_of_pythons_own_tokens():

@@ -15,7 +15,6 @@ from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_shown import CHECKS
 from mechsheet.worksheet.lines import Formula, declared, formulas, names_read, undeclaring
-from mechsheet.worksheet.no_inputs import declared_in
 from mechsheet.worksheet.refused_cells import beside_inputs
 from mechsheet.worksheet.source import bound
 from mechsheet.worksheet.typeset import typeset_lines
@@ -48,8 +47,8 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
         except SheetError as error:
             yield LeftOut(n, None, str(error))
     met = {name for found in lines.values() for line in found for name in names_read(line)}
-    for n, cell in enumerate(cells) if declared_in(names) else ():
-        yield from (LeftOut(n, line, why) for line, why in beside_inputs(cell.body))
+    for n, cell in enumerate(cells):
+        yield from (LeftOut(n, line, why) for line, why in beside_inputs(cell.body, names))
     for n, found in lines.items():
         own, last = {line.name for line in found}, max(typeset_lines(cells[n]), default=0)
         below = [line.name for line in found if line.expression.lineno > last]

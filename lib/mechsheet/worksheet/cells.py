@@ -319,8 +319,7 @@ def read(path: Path) -> Worksheet:
         errors = np.geterr()
     setup = tuple(node for node in lines if isinstance(node, ast.Assign | ast.AnnAssign))
     title, own = _title(tree) or path.stem, tuple(_cells(tree, text, path))
-    if declared_in(common):
-        refuse_beside_inputs([cell.lines for cell in own], path)
+    refuse_beside_inputs([cell.lines for cell in own], common, path)
     return Worksheet(str(path), own, common, title, setup, errors, comments, tuple(lines), Begun(common))
 
 

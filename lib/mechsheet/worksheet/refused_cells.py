@@ -4,10 +4,12 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from textwrap import dedent
+from typing import Any
 
 from mechsheet.worksheet import mistakes, source
 from mechsheet.worksheet.caret import caret
 from mechsheet.worksheet.errors import SheetError
+from mechsheet.worksheet.no_inputs import declared_in
 from mechsheet.worksheet.source import bound, is_app
 
 _MARKS = ("cell", "function", "class_definition")  # what stands above what marimo reads
@@ -64,28 +66,40 @@ def refuse_misread(statements: Iterable[ast.stmt], path: Path) -> None:
                 raise SheetError(f"{mistakes.place(path, line.lineno)}: {why}")
 
 
-def refuse_beside_inputs(cells: Iterable[Sequence[ast.stmt]], path: Path) -> None:
+def refuse_beside_inputs(cells: Iterable[Sequence[ast.stmt]], names: Mapping[str, Any], path: Path) -> None:
     """Raise SheetError for what stands `beside_inputs` in a cell."""
     for lines in cells:
-        for at, why in beside_inputs(lines):
+        for at, why in beside_inputs(lines, names):
             raise SheetError(f"{mistakes.place(path, at)}: {why}")
 
 
-def beside_inputs(lines: Sequence[ast.stmt]) -> Iterator[tuple[int, str]]:
-    """What the cell of g, the inputs, gives beside it, and values that stand there: the line, and why it may not.
+def beside_inputs(lines: Sequence[ast.stmt], names: Mapping[str, Any]) -> Iterator[tuple[int, str]]:
+    """What the cell of g, the inputs, gives beside it, and a g of its own: the line, and why it may not.
 
-    Where other inputs are given, that cell does not run: both would be those of the page alone.
+    Where other inputs are given, that cell does not run: both would be those of the page alone. The class of the inputs
+    and `read` are called as they are among the ``names`` of the worksheet; nothing where there is no such class.
     """
-    for line in (line for line in lines if "g" in bound(line)):
+    cls = getattr(declared_in(names), "__name__", "")
+    for line in (line for line in lines if cls and "g" in bound(line)):
         others = dict.fromkeys(name for each in lines for name in bound(each) if name != "g" and name[0] != "_")
         if others:
             yield line.lineno, f"g, the inputs, needs a cell of its own: move {', '.join(others)} to another one"
         match line:
-            case ast.Assign(_, ast.Call(ast.Name(name), args, keywords)) if args or keywords:
-                given = [*args, *(keyword.value for keyword in keywords)]
-                if not any(isinstance(node, ast.Name) for each in given for node in ast.walk(each)):
-                    why = f"values of inputs stand in the lines of their class: {name}() begins with these"
-                    yield line.lineno, why
+            case (
+                ast.Assign([ast.Name()], ast.Call(of, args, keywords))
+                | ast.AnnAssign(value=ast.Call(of, args, keywords))
+            ) if _called(of, names) == "read" or (_called(of, names) == cls and not args and not keywords):
+                continue
+        why = f"inputs begin with the values of their class: write g = read({cls}, form), or g = {cls}()"
+        yield line.lineno, why
+
+
+def _called(of: ast.expr, names: Mapping[str, Any]) -> str:
+    """Name of what is called, as where it is defined."""
+    match of:
+        case ast.Name(name) | ast.Attribute(attr=name):
+            return getattr(names.get(name), "__name__", name)
+    return ""
 
 
 _DEEPEST = 300  # levels of a statement: each takes some of Python's thousand calls in one another
