@@ -4,11 +4,11 @@
 """
 
 import ast
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from copy import deepcopy
 from functools import lru_cache
 
-from mechsheet.recording.forms import SCOPED, appended, call, taking
+from mechsheet.recording.forms import SCOPED, appended, call, later, taking
 from mechsheet.recording.ways import only_bind
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -29,6 +29,7 @@ class Comprehended(ast.NodeTransformer):
         self.generic_visit(node)
         if not any(isinstance(part, ast.Break) for part in ast.walk(node)):
             node.body = unskipped(node.body)
+        node.iter = _live(node.iter, _changed(node.body))
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
@@ -58,6 +59,31 @@ def unskipped(body: list[ast.stmt]) -> list[ast.stmt]:
                 ways = (test, way, rest) if way else (ast.UnaryOp(ast.Not(), test), rest, [])
                 return [*body[:n], ast.fix_missing_locations(ast.copy_location(ast.If(*ways), line))]
     return body
+
+
+def _live(items: ast.expr, changed: Set[str]) -> ast.expr:
+    """What a loop goes through, arrays that are ``changed`` in it as they are when it comes to each element."""
+    match items:
+        case ast.Call(ast.Name("enumerate" | "zip") as function, sources, named):
+            return ast.copy_location(ast.Call(function, [_live(each, changed) for each in sources], named), items)
+        case ast.Name(name) | ast.Subscript(ast.Name(name), ast.Slice()) if name in changed:
+            return call("live", items, later(items))
+    return items
+
+
+def _changed(body: list[ast.stmt]) -> set[str]:
+    """Names of what statements change in place, where that is an array, and which they bind to nothing else."""
+    found, others = set[str](), list[ast.Name]()
+    for part in (part for line in body for part in ast.walk(line)):
+        match part:
+            case ast.Subscript(ast.Name(name), ctx=ast.Store()) | ast.AugAssign(ast.Name(name)):
+                found.add(name)
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill"))):
+                found.add(name)
+            case ast.Name(ctx=ast.Store()):
+                others.append(part)
+    kept = {id(part.target) for line in body for part in ast.walk(line) if isinstance(part, ast.AugAssign)}
+    return found.difference(name.id for name in others if id(name) not in kept)
 
 
 def through_kept(node: ast.For) -> ast.stmt:

@@ -2,7 +2,7 @@
 
 import operator
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import reduce
 from typing import Any
 
@@ -174,6 +174,25 @@ def _placed(old_and_new: Any, key: Any) -> Any:
     return both
 
 
+class Live:
+    """The elements of an array under a name as they are when a loop comes to them, which changes some meanwhile."""
+
+    def __init__(self, now: Callable[[], Any]) -> None:
+        self._now = now
+
+    def __len__(self) -> int:
+        return len(self._now())
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self._now()[k] for k in range(len(self)))
+
+
+def live(now: Callable[[], Any]) -> Any:
+    """What a loop goes through that changes it: who went through an array would know it as it was."""
+    value = now()
+    return Live(now) if type(value) in (np.ndarray, Quantity) and value.ndim else value
+
+
 def changed(old: Any, operation: str, value: Any) -> Any:
     """``old`` after ``old += value`` or another such operation."""
     old = exactly.of_array(old)
@@ -244,5 +263,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
+    "live": live,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}
