@@ -39,8 +39,8 @@ def by_turn(node: ast.For) -> list[ast.stmt] | None:
         for names in (lists, [name for name in arrays if name not in lists])
     ]
     begun.append(ast.Assign([_stored(former)], call("former", node, known[1])))
-    left = [ast.Expr(local), ast.Expr(call("left", node, _loaded(former)))]  # the first forgets what it has told
-    either = ast.If(call("setting", node, turns, *known), [*begun, loop, *left, *listed], [node])
+    left = ast.Expr(call("left", node, _loaded(former)))
+    either = ast.If(call("setting", node, turns, *known), [*begun, loop, left, *listed], [node])
     return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (ask, either)]
 
 

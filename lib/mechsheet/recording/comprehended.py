@@ -8,7 +8,8 @@ from collections.abc import Sequence, Set
 from copy import deepcopy
 from functools import lru_cache
 
-from mechsheet.recording.forms import SCOPED, appended, call, later, taking
+from mechsheet.recording.forms import SCOPED, appended, call, changed_in_place, later, taking
+from mechsheet.recording.handed import given_back
 from mechsheet.recording.ways import only_bind
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -29,7 +30,7 @@ class Comprehended(ast.NodeTransformer):
         self.generic_visit(node)
         if not any(isinstance(part, ast.Break) for part in ast.walk(node)):
             node.body = unskipped(node.body)
-        node.iter = _live(node.iter, _changed(node.body))
+        node.iter = _live(node.iter, set[str]().union(*changed_in_place(node.body)))
         return node
 
     def visit_Call(self, node: ast.Call) -> ast.AST:
@@ -69,21 +70,6 @@ def _live(items: ast.expr, changed: Set[str]) -> ast.expr:
         case ast.Name(name) | ast.Subscript(ast.Name(name), ast.Slice()) if name in changed:
             return call("live", items, later(items))
     return items
-
-
-def _changed(body: list[ast.stmt]) -> set[str]:
-    """Names of what statements change in place, where that is an array, and which they bind to nothing else."""
-    found, others = set[str](), list[ast.Name]()
-    for part in (part for line in body for part in ast.walk(line)):
-        match part:
-            case ast.Subscript(ast.Name(name), ctx=ast.Store()) | ast.AugAssign(ast.Name(name)):
-                found.add(name)
-            case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill"))):
-                found.add(name)
-            case ast.Name(ctx=ast.Store()):
-                others.append(part)
-    kept = {id(part.target) for line in body for part in ast.walk(line) if isinstance(part, ast.AugAssign)}
-    return found.difference(name.id for name in others if id(name) not in kept)
 
 
 def through_kept(node: ast.For) -> ast.stmt:
@@ -158,7 +144,7 @@ def _empty(line: ast.stmt) -> str:
 @lru_cache(maxsize=512)
 def of_cell(cell: Cell, sheet: Worksheet) -> list[ast.stmt]:
     """The statements of a cell, which are looked at once for each of them."""
-    return kept_in_loops(cell.lines, frozenset[str]().union(*(each.needs for each in sheet.cells)))
+    return kept_in_loops(given_back(cell, sheet), frozenset[str]().union(*(each.needs for each in sheet.cells)))
 
 
 def _kept(lists: Sequence[str], loop: ast.For, read: set[str]) -> list[tuple[str, ast.ListComp]]:

@@ -423,3 +423,21 @@ def taking(names: Iterable[str], value: ast.expr) -> ast.expr:
 def call(name: str, at: ast.AST, *args: ast.expr) -> ast.Call:
     call = ast.Call(ast.Name(f"recorded {name}", ast.Load()), list(args), [])
     return ast.copy_location(call, at)
+
+
+def changed_in_place(body: Iterable[ast.stmt]) -> tuple[set[str], set[str]]:
+    """Names of what statements change in place, and of what they add to; not those that they bind to anything else."""
+    changed, added, others = set[str](), set[str](), set[str]()
+    parts = [part for line in body for part in ast.walk(line)]
+    kept = {id(part.target) for part in parts if isinstance(part, ast.AugAssign)}
+    for part in parts:
+        match part:
+            case ast.Subscript(ast.Name(name), ctx=ast.Store()):
+                changed.add(name)
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill"))):
+                changed.add(name)
+            case ast.AugAssign(ast.Name(name)):
+                added.add(name)
+            case ast.Name(name, ast.Store() | ast.Del()) if id(part) not in kept:
+                others.add(name)
+    return changed - others, added - others

@@ -20,16 +20,18 @@ from mechsheet.recording.choices import element
 from mechsheet.recording.memory import either_of, taken
 
 OTHER_NAME = "an array is changed that has another name too"
-_NOT_SET = object()  # an element that there is not
+NOT_SET = object()  # an element that there is not
 
 
 def put_where(array: Any, key: Callable[[], Any], value: Any) -> Any:
     """The array after a condition has set ``array[key()]``, or left what is there as it is."""
-    return array if value is _NOT_SET else put(array, key(), value)
+    return array if value is NOT_SET else put(array, key(), value)
 
 
 def put(array: Any, key: Any, value: Any) -> Any:
     """The array after ``array[key] = value``."""
+    if value is NOT_SET:
+        return array
     if not isinstance(array, np.ndarray | Quantity) or not has_quantity([array, key, value]):
         array[key] = value
         return array
@@ -153,7 +155,7 @@ def part_of(array: Any, key: Callable[[], Any]) -> Any:
     try:
         return element(array, key())
     except (IndexError, KeyError, ValueError):
-        return _NOT_SET
+        return NOT_SET
 
 
 def held(container: Any, key: Any) -> Any:

@@ -387,9 +387,12 @@ def _whole(graph: Graph, parts: list[Node], like: list[Quantity]) -> list[Quanti
     return [Quantity(graph, next(rest), None if x.im is None else next(rest)) for x in like]
 
 
-def known(names: Mapping[str, Any], *wanted: str) -> list[Any]:
-    """What some names are bound to."""
-    return [names.get(name, UNBOUND) for name in wanted]
+def known(names: dict[str, Any], *wanted: str) -> list[Any]:
+    """What some of the ``names`` of a function or a cell are bound to."""
+    values = [names.get(name, UNBOUND) for name in wanted]
+    if "__builtins__" not in names:  # until Python 3.12 a function keeps what it has told
+        names.clear()
+    return values
 
 
 def all_of(function: Any, *parts: Any, **named: Any) -> Any:

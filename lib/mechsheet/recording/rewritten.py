@@ -18,6 +18,7 @@ from mechsheet.recording import (
     conditions,
     each_row,
     exactly,
+    handed,
     in_place,
     inspected,
     kept,
@@ -56,6 +57,7 @@ from mechsheet.recording.forms import (
 )
 from mechsheet.recording.summed import as_sums
 from mechsheet.recording.ways import (
+    bound_in,
     deleted,
     ended,
     ends,
@@ -71,7 +73,7 @@ from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 CALLS |= raised.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS | named.CALLS
-CALLS |= inspected.CALLS
+CALLS |= inspected.CALLS | handed.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {
     *("float", "int", "complex", "len", "max", "min", "pow", "round"),
@@ -344,10 +346,7 @@ class _Rewriting(ast.NodeTransformer):
 
     def binds(self, name: str) -> bool:
         """Whether a name is bound where the present line stands, in a function or in the cell."""
-        if self.inside is None:
-            return True
-        given = {node.arg for node in ast.walk(self.inside.args) if isinstance(node, ast.arg)}
-        return name in given.union(*map(bound, self.inside.body))
+        return self.inside is None or name in bound_in(self.inside)
 
     def visit_Raise(self, node: ast.Raise) -> ast.AST:
         self.generic_visit(node)

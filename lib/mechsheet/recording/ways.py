@@ -78,6 +78,12 @@ def _by_all(lines: list[ast.stmt]) -> set[str]:
     return set[str]().union(*map(_always, lines))
 
 
+def bound_in(function: ast.FunctionDef) -> set[str]:
+    """The arguments of a function, and what it binds."""
+    given = {node.arg for node in ast.walk(function.args) if isinstance(node, ast.arg)}
+    return given.union(*map(bound, function.body))
+
+
 def unbound_left(node: ast.For) -> ast.stmt:
     return ast.copy_location(ast.Delete([ast.Name(f"recorded left {node.lineno}", ast.Del())]), node)
 

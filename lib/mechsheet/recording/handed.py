@@ -1,0 +1,262 @@
+"""Arrays that functions change for who calls them, as what these functions give back.
+
+``def step(s, h): s[0] += h * s[1]`` with ``step(state, 0.1)`` is ``def step(s, h): ...; return s`` of a copy with
+``state[...] = step(state, 0.1)``: the same where nobody in the function knows the array by another name.
+"""
+
+import ast
+from collections import Counter
+from collections.abc import Mapping, Sequence, Set
+from copy import deepcopy
+from functools import lru_cache
+from sys import getrefcount
+from types import FunctionType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mechsheet.quantities.graph import NotRecorded
+from mechsheet.quantities.quantity import Quantity, owner
+from mechsheet.recording.forms import call, changed_in_place
+from mechsheet.recording.in_place import NOT_SET, OTHER_NAME
+from mechsheet.recording.memory import Memory, either_of, shared_by
+from mechsheet.worksheet import source
+from mechsheet.worksheet.cells import Cell, Worksheet
+
+# Functions that go through all of what they are given before they end.
+_AT_ONCE = {"sum", "max", "min", "any", "all", "list", "tuple", "set", "sorted"}
+_MADE = ast.Call, ast.BinOp, ast.UnaryOp, ast.Constant, ast.List, ast.Tuple  # values that nobody else knows
+
+
+class _Changing(NamedTuple):
+    """A function that changes some of its arguments in place where these are arrays, and calls others giving back."""
+
+    function: ast.FunctionDef
+    changed: tuple[str, ...]
+    surely: bool  # and not by ``+=`` alone, which binds a number anew
+
+    @property
+    def giving(self) -> str:
+        """Name of the function that gives them back."""
+        return f"_{self.function.name} giving back"
+
+
+def given_back(cell: Cell, sheet: Worksheet) -> Sequence[ast.stmt]:
+    """The statements of a cell, in which functions give back the arrays that they change."""
+    if not (known := _changing(sheet)):
+        return cell.lines
+    found, made = list[ast.stmt](), set[str]()
+    for line in cell.lines:
+        lines = _handing([line], known)
+        needed = [*_called(lines, known)]
+        for each in needed:
+            needed += [other for other in _called([each.function], known) if other not in needed]
+        new = (_as_giving(each) for each in needed if each.giving not in made)
+        found += (ast.fix_missing_locations(ast.copy_location(each, line)) for each in new)
+        made.update(each.giving for each in needed)
+        found += lines
+    return found
+
+
+def _called(lines: Sequence[ast.stmt], known: Mapping[str, _Changing]) -> list[_Changing]:
+    """Functions that statements call to have arrays back."""
+    names = {part.id for line in lines for part in ast.walk(line) if isinstance(part, ast.Name)}
+    return [each for each in known.values() if each.giving in names]
+
+
+@lru_cache(maxsize=64)
+def _changing(sheet: Worksheet) -> Mapping[str, _Changing]:
+    """The functions of a worksheet that change their arguments, or hand them to one that does, by their names."""
+    every = (*sheet.whole, *(line for cell in sheet.cells for line in cell.lines))
+    given = Counter(name for line in every for name in source.bound(line))
+    functions = [line for line in every if isinstance(line, ast.FunctionDef) and given[line.name] == 1]
+    known = dict[str, _Changing]()
+    while True:
+        found = {each.function.name: each for f in functions if (each := _as_changing(f, known)).changed}
+        if {name: each[1:] for name, each in found.items()} == {name: each[1:] for name, each in known.items()}:
+            return found
+        known = found
+
+
+def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing]) -> _Changing:
+    """A function with the arguments that it changes in place and never binds to anything else, where that is told."""
+    new: Any = _handing([function], known)[0]
+    given, parts = function.args, [part for line in function.body for part in ast.walk(line)]
+    untold = ast.FunctionDef | ast.ClassDef | ast.Yield | ast.YieldFrom | ast.Global | ast.Nonlocal
+    defaults = (*given.defaults, *filter(None, given.kw_defaults))
+    if function.decorator_list or any(isinstance(part, untold) for part in parts):
+        return _Changing(new, (), False)
+    if not all(isinstance(value, ast.Constant) for value in defaults):  # it would have another one as its own
+        return _Changing(new, (), False)
+    changed, added = changed_in_place(new.body)
+    names = [each.arg for each in (*given.posonlyargs, *given.args)]
+    later = _read_later(function)
+    found = tuple(name for name in names if name in (changed | added) - later)
+    return _Changing(new, found, not changed.isdisjoint(found))
+
+
+def _read_later(function: ast.FunctionDef) -> set[str]:
+    """Names that a function has somebody read, who may do so once it has ended."""
+    parts = [*ast.walk(function)]
+    calls = [(part.func, part.args) for part in parts if isinstance(part, ast.Call)]
+    at_once = {id(x) for of, args in calls if isinstance(of, ast.Name) and of.id in _AT_ONCE for x in args}
+    later = (x for x in parts if isinstance(x, ast.Lambda | ast.GeneratorExp) and id(x) not in at_once)
+    return {name.id for each in later for name in ast.walk(each) if isinstance(name, ast.Name)}
+
+
+def _handing(lines: Sequence[ast.stmt], known: Mapping[str, _Changing], own: Set[str] | None = None) -> list[ast.stmt]:
+    """Statements in which functions give back what they change, among the names of a function's ``own``."""
+    found = list[ast.stmt]()
+    for line in lines:
+        if known.keys().isdisjoint(part.id for part in ast.walk(line) if isinstance(part, ast.Name)):
+            found.append(line)
+        elif isinstance(line, ast.ClassDef) or (own is not None and isinstance(line, ast.FunctionDef)):
+            found.append(line)  # whose names are others
+        elif new := _handed_back(line, known, own):
+            found += (ast.fix_missing_locations(ast.copy_location(each, line)) for each in new)
+        else:
+            line, names = deepcopy(line), source.local(line) if isinstance(line, ast.FunctionDef) else own
+            for part in (line, *getattr(line, "handlers", ()), *getattr(line, "cases", ())):
+                for field in ("body", "orelse", "finalbody"):
+                    if isinstance(inner := getattr(part, field, None), list):
+                        setattr(part, field, _handing(inner, known, names))
+            found.append(line)
+    return found
+
+
+def _handed_back(line: ast.stmt, known: Mapping[str, _Changing], own: Set[str] | None) -> list[ast.stmt]:
+    """The statements for one that calls such a function; none where it does not, or hands on what has no name here."""
+    match line:
+        case ast.Expr(ast.Call(ast.Name(name)) as node) if name in known:
+            targets = list[ast.expr]()
+        case ast.Assign(targets, ast.Call(ast.Name(name)) as node) if name in known and known[name].surely:
+            pass
+        case _:
+            return []
+    given = _arguments(node, known[name].function.args)
+    arrays = [given.get(each) for each in known[name].changed]
+    names = [array.id for array in arrays if isinstance(array, ast.Name)]
+    if not names or len({*names}) < len(names) or (own is not None and (name in own or not own >= {*names})):
+        return []
+    if not all(isinstance(array, (ast.Name, *_MADE)) for array in arrays):
+        return []
+    new = [f"_new {line.lineno} {k}" for k, _ in enumerate(arrays)]
+    pairs = [(x, array.id) for x, array in zip(new, arrays, strict=True) if isinstance(array, ast.Name)]
+    result = f"_given {line.lineno}"
+    nothing: list[ast.expr] = [ast.Constant(None) for _ in (*new, result)]
+    giving = ast.Call(ast.Name(known[name].giving, ast.Load()), node.args, node.keywords)
+    lines: list[ast.stmt] = [ast.Assign([_stored(*new, result)], giving)]
+    for x, array in pairs:
+        whole = ast.Subscript(ast.Name(array, ast.Load()), ast.Constant(...), ast.Store())
+        lines.append(ast.Assign([whole], ast.Name(x, ast.Load())))
+    if targets:
+        sides = [ast.Tuple([ast.Name(pair[k], ast.Load()) for pair in pairs], ast.Load()) for k in (0, 1)]
+        lines.append(ast.Assign(targets, call("of_caller", node, ast.Name(result, ast.Load()), *sides)))
+    return [*lines, ast.Assign([_stored(*new, result)], ast.Tuple(nothing, ast.Load()))]
+
+
+def _stored(*names: str) -> ast.Tuple:
+    return ast.Tuple([ast.Name(name, ast.Store()) for name in names], ast.Store())
+
+
+def _arguments(node: ast.Call, given: ast.arguments) -> dict[str, ast.expr]:
+    """What is handed as each argument; nothing where it is not told."""
+    if any(isinstance(x, ast.Starred) for x in node.args) or any(x.arg is None for x in node.keywords):
+        return {}
+    names = [each.arg for each in (*given.posonlyargs, *given.args)]
+    return {**dict(zip(names, node.args, strict=False)), **{x.arg: x.value for x in node.keywords if x.arg}}
+
+
+def _as_giving(each: _Changing) -> ast.FunctionDef:
+    """The function that gives back the arrays which it changes, copies of those that it is handed."""
+    function = deepcopy(each.function)
+    function.name, args = each.giving, function.args
+    others = [arg.arg for arg in (*args.posonlyargs, *args.args, *args.kwonlyargs)]
+    others += [arg.arg for arg in (args.vararg, args.kwarg) if arg]
+    begun = list[ast.stmt]()
+    for name in each.changed:
+        beside: list[ast.expr] = [ast.Name(other, ast.Load()) for other in others if other != name]
+        copied = call("handed", function, *(ast.Name(x, ast.Load()) for x in (name, each.giving)), *beside)
+        begun.append(ast.Assign([ast.Name(name, ast.Store())], copied))
+    returning = _Returning(each.changed)
+    body = [*map(returning.visit, function.body), returning.visit_Return(ast.Return(None))]
+    function.body = [*begun, *body]
+    return function
+
+
+class _Returning(ast.NodeTransformer):
+    """What a function gives, behind the arrays that it has changed."""
+
+    def __init__(self, changed: Sequence[str]) -> None:
+        self.changed = changed
+
+    def visit_Return(self, node: ast.Return) -> ast.Return:
+        back = [ast.Call(ast.Name("recorded back", ast.Load()), [ast.Name(x, ast.Load())], []) for x in self.changed]
+        node.value = ast.Tuple([*back, node.value or ast.Constant(None)], ast.Load())
+        return node
+
+    def visit_Lambda(self, node: ast.Lambda) -> ast.Lambda:
+        return node
+
+
+# --- what the calls do -----------------------------------------------------------------------------------------------
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray | Quantity) and value.ndim > 0
+
+
+def handed(array: Any, function: FunctionType, *others: Any) -> Any:
+    """A copy of an array, in its place in a function that nothing else hands it to; what is none itself."""
+    if not _is_array(array):
+        return array
+    reached = {name: function.__globals__.get(name) for name in _read_by(function)} | {"": others}
+    if Memory.named(reached, {*map(id, (owner(array), array, *either_of(array)))}):
+        raise NotRecorded(OTHER_NAME)
+    return array.copy()
+
+
+def _read_by(function: FunctionType) -> set[str]:
+    """Names of the worksheet that a function reads, and those that it calls by them."""
+    found, waiting, own = set[str](), [function], function.__globals__
+    for f in waiting:
+        new = shared_by(f.__code__) - found
+        found |= new
+        waiting += [x for x in map(own.get, new) if isinstance(x, FunctionType) and x.__globals__ is own]
+    return found
+
+
+def back(array: Any) -> Any:
+    """An array that a function has changed, and of which it has told nobody; an element that is not set else."""
+    if not _is_array(array):
+        return NOT_SET
+    if getrefcount(array) > _ALONE:
+        raise NotRecorded(OTHER_NAME)
+    return array
+
+
+def _alone() -> int:
+    array = np.zeros(1)
+    return _counted(array)
+
+
+def _counted(array: Any) -> int:
+    return getrefcount(array)
+
+
+_ALONE = _alone()
+
+
+def of_caller(result: Any, new: tuple[Any, ...], arrays: tuple[Any, ...]) -> Any:
+    """What a function gives, which may be the arrays that it was handed, as the caller knows these."""
+    for one, array in zip(new, arrays, strict=True):
+        if result is one and one is not NOT_SET:
+            return array
+    if isinstance(result, tuple) and type(result) is tuple:
+        return tuple(of_caller(each, new, arrays) for each in result)
+    if not Memory([result], {}).arrays.isdisjoint(map(id, new)):
+        raise NotRecorded(OTHER_NAME)
+    return result
+
+
+CALLS: dict[str, Any] = {"handed": handed, "back": back, "of_caller": of_caller}

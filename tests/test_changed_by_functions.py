@@ -1,0 +1,103 @@
+"""Arrays that functions change for who calls them, followed for other inputs, or told."""
+
+from pathlib import Path
+
+import pytest
+from never_stale import assert_never_stale
+from own_worksheet import ELSEWHERE, assert_followed, own, recorded
+
+Z = "z = np.array([1.0, g.F, 3.0])\n"
+F = "def f(s):\n    s[0] = g.a\n"
+STEP = (
+    "state = np.zeros(3)\ndef step(s, h):\n    s[0] += h * s[1]\n    s[1] -= h * s[0] * g.a\n"
+    "    s[2] = max(s[2], abs(s[0]))\nstate[1] = g.F\n"
+)
+ADD = (
+    "K = np.zeros((4, 4))\ndef add(K, k, i):\n"
+    "    K[i:i + 2, i:i + 2] += k * np.array([[1.0, -1.0], [-1.0, 1.0]])\n    return K\n"
+)
+GAUSS = """def gauss(A, b):
+    n = len(b)
+    for k in range(n):
+        for i in range(k + 1, n):
+            m = A[i, k] / A[k, k]
+            A[i] -= m * A[k]
+            b[i] -= m * b[k]
+    x = np.zeros(n)
+    for i in range(n - 1, -1, -1):
+        x[i] = (b[i] - A[i, i + 1:] @ x[i + 1:]) / A[i, i]
+    return x
+A = np.array([[4.0 + g.F, 1.0, 2.0], [g.a, 5.0, 1.0], [1.0, 0.5, 6.0]])
+b = np.array([1.0, g.F, 2.0])
+"""
+
+FOLLOWED = [
+    STEP + "for i in range(12):\n    step(state, 0.1)\ny = state",
+    ADD + "for i in range(3):\n    add(K, g.F + i * g.a, i)\ny = K[1] + K[2]",
+    ADD + "for i in range(3):\n    K = add(K, g.F + i * g.a, i)\ny = np.linalg.solve(K[1:, 1:], [1.0, 2.0, 3.0])",
+    GAUSS + "w = gauss(A, b)\ny = w + A[2] + b",
+    Z + F + "    return s[1] * 2\nw = f(z)\ny = w + z",
+    Z + F + "    return s\nw = f(z)\ny = w + z",
+    Z + F + "    return s[0], s[1]\nu, w = f(z)\ny = z + u * w",
+    Z + F + "    return sum(s[k] for k in range(3))\nz[1] = f(z)\ny = z",
+    Z + F + "def outer(s):\n    for k in range(3):\n        f(s)\n        s[1] *= s[0]\nouter(z)\ny = z",
+    F + "def made(n):\n    s = np.ones(4)\n    for k in range(n):\n        f(s)\n    return s\ny = made(3)",
+    Z + "def f(s):\n    s += g.a\nf(z)\ny = z",
+    "def f(s):\n    s += g.a\n    return s\nq = g.F\nw = f(q)\ny = w + q",  # a number of its own
+    Z + "def f(s):\n    if g.F > 3:\n        s[1] = g.a\nf(z)\ny = z",
+    Z + "def f(s):\n    for i, v in enumerate(s):\n        s[i] = v * g.a\nf(z)\ny = z",
+    Z + "def f(s, k=2, *, w=1.0):\n    s[k] = g.a * w\nf(z)\nf(z, k=0, w=2.0)\nf(s=z, k=1, w=3.0)\ny = z",
+    "L = [1.0, g.F]\ndef f(s):\n    s.append(g.a)\n    s[0] = 5.0\nf(L)\ny = np.array(L)",
+    "def swap(A, i, j):\n    A[[i, j]] = A[[j, i]]\nA = np.array([[1.0, g.F], [g.a, 2.0]])\nswap(A, 0, 1)\ny = A[0]",
+    Z + "def f(s):\n    s.sort()\n    s[0] = g.a\nf(z)\ny = z",
+    "z = np.array([1, 2, 3])\ndef f(s):\n    s[0] = g.F\nf(z)\ny = z",  # of whole numbers
+    Z + "def f(s, t):\n    s[0] = t[1]\n    t[0] = s[0] + 1\n    return t\nw = z * 2\nv = f(z, w)\ny = z + w + v",
+    Z + "def f(s, n):\n    s[n] = g.a + n\n    if n > 0:\n        f(s, n - 1)\nf(z, 2)\ny = z",
+    Z + "def f(s, k):\n    for i in range(k):\n        s[i % 3] += g.a / (i + 1)\nf(z, g.n)\ny = z",
+]
+TOLD = [
+    # another name of the array, within and beside
+    "w = z\n" + F + "f(z)\ny = w + z",
+    "L = [z]\n" + F + "f(z)\ny = L[0] + z",
+    F + "    return z[0]\nw = f(z)\ny = w + z",
+    F + "    return h()\nh = lambda: z[0]\nw = f(z)\ny = w + z",
+    F.replace("(s)", "(s, t)") + "    return t[0]\nw = f(z, z)\ny = w + z",
+    F.replace("(s)", "(s, *t)") + "    return t[0][0]\nw = f(z, [z])\ny = w + z",
+    F.replace("(s)", "(s, **t)") + "    return t['t'][0]\nw = f(z, t=z[:2])\ny = w + z",
+    F.replace("(s)", "(s, t)") + "    return next(t)\nw = f(z, (v for v in z))\ny = w + z",
+    F.replace("(s)", "(s, t)") + "    return t()\nw = f(z, lambda: z[0])\ny = w + z",
+    "def f(s):\n    t = s\n    s[0] = g.a\n    return t[0]\nw = f(z)\ny = w + z",
+    "def f(s):\n    w = s.reshape(3, 1)\n    s[0] = g.a\n    return w[0, 0]\nw = f(z)\ny = w + z",
+    # one that is told to somebody, who sees what is changed later
+    "held = []\n" + F + "    held.append(s)\nf(z)\nz[1] = 9.0\ny = held[0] + z",
+    "held = []\n" + F + "    held.append(lambda: s[1])\nf(z)\nz[1] = 9.0\ny = held[0]() + z",
+    F + "    return {'s': s}\nd = f(z)\nz[1] = 9.0\ny = d['s'] + z",
+    F + "    return s[1:]\nw = f(z)\nz[1] = 7.0\ny = w[0] + z",
+    F + "    return s\nw = f(z)\nw[1] = 4.0\ny = w + z",
+    "v = z[1:]\n" + F + "f(v)\ny = z",
+    "v = z[1:]\ndef f(s):\n    s[1] = g.a\nf(z)\ny = v",
+    # functions that are others by then, or have something of their own
+    F + "f(z)\nf2 = f\ndef f(s):\n    s[1] = 2 * g.a\nf(z)\ny = z",
+    "def f(s, n=[0]):\n    n[0] += 1\n    s[n[0] % 3] = g.a * n[0]\nf(z)\nf(z)\ny = z",
+    "def f(s):\n    s[0] = g.a\n    s = s * 2\n    return s\nw = f(z)\ny = w + z",
+    F + "    if g.F > 3:\n        return 1.0\n    s[1] = g.a\n    return 2.0\nw = f(z)\ny = z * w",
+    F + "    raise ValueError\ntry:\n    f(z)\nexcept ValueError:\n    pass\ny = z",
+    F + "if g.F > 3:\n    f(z)\ny = z",
+    F + "w = [f(z) for k in range(3)]\ny = z",
+    F + "def h(s):\n    s[2] = g.a\ndef outer(f, s):\n    f(s)\nouter(h, z)\ny = z",
+]
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("lines", [*FOLLOWED, *(Z + lines for lines in TOLD)])
+def test_what_functions_change_is_never_stale(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+
+
+@pytest.mark.parametrize("lines", FOLLOWED)
+def test_what_functions_change_follows(lines: str, tmp_path: Path) -> None:
+    """The array of who calls had another name in the function: all behind it kept the document's numbers."""
+    sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) + g.F  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    assert_followed(sheet, recording, ELSEWHERE)
