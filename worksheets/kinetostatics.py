@@ -22,7 +22,7 @@ with app.setup:
         rrp_velocity, rrr, rrr_acceleration, rrr_transmission_angle, rrr_velocity, slider, solve_reactions, summary,
         table, title_block, typeset,
     )  # fmt: skip
-    from mechsheet.units import deg, mm
+    from mechsheet.units import MPa, deg, mm
 
     ulp = np.finfo(float).eps
     group_picture = Drawing(width=760, height=460)  # of each group cut free
@@ -124,7 +124,7 @@ class Mechanism:
     # 1.5 Loads
     g_n: float = 9.81  # [m/s**2] acceleration of gravity; >= 0
     Q5: float = 4500  # [N] resistance to the plunger in its working stroke, along the guide; >= 0
-    p_g: float = 0.6e6  # [MPa] pressure of the gas above that of the air; >= 0
+    p_g: float = 0.6 * MPa  # [MPa] pressure of the gas above that of the air; >= 0
     D_g: float = 0.05  # [m] diameter of the piston; > 0
 
     # 1.6 Drive

@@ -3,8 +3,8 @@
 from mechsheet.units import parse, si
 from mechsheet.worksheet import numbers
 
-# Beyond these a number is hardly meant in SI by somebody who reads it in such a unit: 12 N in kN, 42 m in mm, 20 rad.
-_LARGE, _LEAST = 1e3, 0.1  # of a unit that many times that of SI or more, so much of it
+# Beyond these a number is hardly meant in SI by somebody who reads it in such a unit: 400 N in kN, 42 m in mm, 20 rad.
+_LARGE = 1e3  # of a unit that many times that of SI or more, less than one of it
 _SMALL, _MOST = 0.02, 5.0  # of one that is no more than so much of that of SI, so many of SI
 
 
@@ -20,12 +20,13 @@ def unlikely(text: str, unit: str) -> str:
 
     >>> unlikely("42", "mm")
     '42000 mm; 42 is taken in m: write 42 * mm, or 42 * m where that is meant'
-    >>> unlikely("0.042", "mm"), unlikely("50e3", "kN")
-    ('', '')
+    >>> unlikely("210e3", "MPa")
+    '0.21 MPa; 210e3 is taken in Pa: write 210e3 * MPa, or 210e3 * Pa where that is meant'
+    >>> unlikely("0.042", "mm"), unlikely("50e3", "kN"), unlikely("0", "kN")
+    ('', '', '')
     """
     size, factor = abs(float(text)), parse(unit).factor
-    little = factor >= _LARGE and 1 <= size < _LEAST * factor
-    if not little and not (factor <= _SMALL and size >= _MOST):
+    if not (factor >= _LARGE and 0 < size < factor) and not (factor <= _SMALL and size >= _MOST):
         return ""
     meant = "" if si(unit) == "-" else f", or {text} * {si(unit)} where that is meant"
     return f"{numbers.amount(float(text), unit)}; {taken(text, unit)}{meant}"
