@@ -11,6 +11,7 @@ import numpy as np
 
 from mechsheet.units import Constant
 from mechsheet.worksheet import inputs, source
+from mechsheet.worksheet.altered import changed
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.line_shown import CHECKS
@@ -49,6 +50,7 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
     met = {name for found in lines.values() for line in found for name in names_read(line)}
     for n, cell in enumerate(cells):
         yield from (LeftOut(n, line, why) for line, why in beside_inputs(cell.body, names))
+    yield from _of_others(cells)
     for n, found in lines.items():
         own, last = {line.name for line in found}, max(typeset_lines(cells[n]), default=0)
         below = [line.name for line in found if line.expression.lineno > last]
@@ -79,6 +81,19 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
                         match each:
                             case ast.AnnAssign(ast.Name(field)) if field in told:
                                 yield LeftOut(n, each.lineno, told[field])
+
+
+def _of_others(cells: Sequence[source.Cell]) -> Iterator[LeftOut]:
+    """What cells change in place that others give: it is another one each time that they run once more."""
+    gives = [{name for line in cell.body for name in bound(line)} for cell in cells]
+    functions = {line.name: line for cell in cells for line in cell.body if isinstance(line, ast.FunctionDef)}
+    for n, cell in enumerate(cells):
+        others = set[str]().union(*gives[:n], *gives[n + 1 :]) - gives[n]
+        for name, places in changed(cell.body, functions).items():
+            if name in others and not name.startswith("_"):
+                why = f"{name} is changed in place, and another cell gives it: once more whenever this one runs again"
+                remedy = f"change a copy, as {name}_2 = {name}.copy(), or do so there"
+                yield LeftOut(n, cell.body[places[0]].lineno, f"{why}: {remedy}")
 
 
 def unseen(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator[LeftOut]:

@@ -4,11 +4,8 @@ import ast
 from collections.abc import Set
 
 from mechsheet.recording.forms import call
+from mechsheet.worksheet.altered import ARRANGING, FILLING
 
-ARRANGING = {"sort", "fill", "partition", "put", "resize"}  # methods of arrays
-FILLING = {  # functions of numpy, of their first argument
-    "at", "fill_diagonal", "copyto", "put", "put_along_axis", "place", "putmask", "shuffle",
-}  # fmt: skip
 _NEW = {
     "zeros", "ones", "empty", "full", "eye", "arange", "linspace", "array", "copy", "zeros_like", "ones_like",
     "empty_like", "full_like", "float", "int", "len", "sum", "abs", "sqrt", "sorted", "list",

@@ -16,10 +16,10 @@ import numpy as np
 
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
-from mechsheet.recording.own_arrays import ARRANGING, FILLING
 from mechsheet.recording.rewritten import compiled
 from mechsheet.recording.ways import former, turned
 from mechsheet.worksheet import source
+from mechsheet.worksheet.altered import altered, held_by, turned_through
 from mechsheet.worksheet.check import Check, check, check_slope
 from mechsheet.worksheet.find import find
 from mechsheet.worksheet.source import bound
@@ -243,50 +243,16 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
 
 def _in_place(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     """Names whose values a statement changes in place where these are arrays, parts of them also."""
-    altered = [*_altered(nodes)]
-    alone = (turns for turns in _turned(nodes, altered) if isinstance(turns, ast.Tuple | ast.List))
-    return chain.from_iterable(map(_held_by, (*altered, *alone)))
+    arrays = [*altered(nodes)]
+    alone = (turns for turns in turned_through(nodes, arrays) if isinstance(turns, ast.Tuple | ast.List))
+    return chain.from_iterable(map(held_by, (*arrays, *alone)))
 
 
 def _within(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
     """Names of what holds arrays that a statement changes in place: as elements, parts, or for turns."""
-    altered = [*_altered(nodes)]
-    parts = (array for array in altered if not isinstance(array, ast.Name))
-    return chain.from_iterable(map(_held_by, (*_turned(nodes, altered), *parts)))
-
-
-def _turned(nodes: Iterable[ast.AST], altered: Iterable[ast.expr]) -> Iterator[ast.expr]:
-    """What loops go through whose turns change what they take out of it."""
-    names = {array.id for array in altered if isinstance(array, ast.Name)}
-    return (n.iter for n in nodes if isinstance(n, ast.For) and not names.isdisjoint(_names(n.target)))
-
-
-def _altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
-    """What a statement changes in place where it is an array."""
-    for node in nodes:
-        match node:
-            case ast.AugAssign(target):
-                yield target
-            case ast.Subscript(of, ctx=ast.Store()) | ast.Attribute(of, ctx=ast.Store()):
-                yield of
-            case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
-                yield of  # or numpy itself
-                yield from args[:1] if function in FILLING else ()
-            case ast.keyword("out", array) | ast.Expr(ast.Call(ast.Attribute(ast.Name("np")), [_, _, array])):
-                yield array
-
-
-def _held_by(node: ast.AST) -> Iterator[ast.Name]:
-    """Names of what an expression is a part of, or a view, as a function of it may be; of several together."""
-    match node:
-        case ast.Name():
-            yield node
-        case ast.Subscript(of) | ast.Attribute(of):
-            yield from _held_by(of)
-        case ast.Call(function, args):
-            yield from chain.from_iterable(map(_held_by, (function, *args)))
-        case ast.Tuple(elts) | ast.List(elts):
-            yield from chain.from_iterable(map(_held_by, elts))
+    arrays = [*altered(nodes)]
+    parts = (array for array in arrays if not isinstance(array, ast.Name))
+    return chain.from_iterable(map(held_by, (*turned_through(nodes, arrays), *parts)))
 
 
 @lru_cache(maxsize=4096)

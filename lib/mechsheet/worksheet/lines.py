@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from mechsheet import units
 from mechsheet.worksheet import source
+from mechsheet.worksheet.altered import changed
 from mechsheet.worksheet.branch import branches, on_its_branch, untold
 from mechsheet.worksheet.caret import caret
 from mechsheet.worksheet.cells import Worksheet
@@ -109,6 +110,7 @@ _OF_ONE = ("lo", "hi", "guess")  # arguments of a block with one unknown
 def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
     known, earlier = branches(cell.body), dict[str, Declared]()
     binding = dict[str, list[int]]()  # statements by the names that they bind
+    altering = changed(cell.body)
     for k, node in enumerate(cell.body):
         for name in bound(node):
             binding.setdefault(name, []).append(k)
@@ -139,12 +141,15 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 again = next((cell.body[n].lineno for n in binding.get(line.name, ()) if n > k), 0)
                 anew = () if line.arguments else (name for name in names_read(line) if binding.get(name, [-1])[-1] >= k)
+                expression = untold(line.expression, known)
+                if any(n > k for n in altering.get(line.name, ())):  # it gives what is another value by now
+                    expression = ast.copy_location(ast.Constant(...), expression)
                 yield line._replace(
                     unit=told.unit,
                     number=printed,
                     meaning=meaning,
                     mistake=told.mistake,
-                    expression=untold(line.expression, known),
+                    expression=expression,
                     where=tuple((name, untold(value, known)) for name, value in line.where),
                     again=again,
                     others=frozenset(anew),

@@ -1,0 +1,143 @@
+"""What statements change in place: elements of arrays and lists, by whatever name these are known."""
+
+import ast
+import builtins
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
+
+from mechsheet.worksheet import source
+
+ARRANGING = {"sort", "fill", "partition", "put", "resize"}  # methods of arrays
+FILLING = {  # functions of numpy, of their first argument
+    "at", "fill_diagonal", "copyto", "put", "put_along_axis", "place", "putmask", "shuffle",
+}  # fmt: skip
+_GROWING = {  # methods of lists and of what holds several values
+    "append", "appendleft", "extend", "insert", "pop", "popleft", "popitem", "remove", "discard", "clear", "reverse",
+    "update", "add", "setdefault",
+}  # fmt: skip
+# Functions that change nothing of what they show.
+_SHOWING = {"typeset", "summary", "title_block", "caption", "table", "figure", "check", "check_slope", "export"}
+_SHOWING |= {*vars(builtins)}
+# Attributes, methods and functions of numpy that give another name to the same elements.
+_SAME = {
+    "T", "real", "imag", "flat", "reshape", "ravel", "view", "transpose", "squeeze", "swapaxes", "diagonal", "asarray",
+    "atleast_1d", "atleast_2d", "moveaxis", "flip",
+}  # fmt: skip
+
+
+def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
+    """What a statement of some nodes changes in place where it is an array."""
+    for node in nodes:
+        match node:
+            case ast.AugAssign(target):
+                yield target
+            case ast.Subscript(of, ctx=ast.Store()) | ast.Attribute(of, ctx=ast.Store()):
+                yield of
+            case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
+                yield of  # or numpy itself
+                yield from args[:1] if function in FILLING else ()
+            case ast.keyword("out", array) | ast.Expr(ast.Call(ast.Attribute(ast.Name("np")), [_, _, array])):
+                yield array
+
+
+def turned_through(nodes: Iterable[ast.AST], arrays: Iterable[ast.expr]) -> Iterator[ast.expr]:
+    """What loops go through whose turns change what they take out of it."""
+    names = {array.id for array in arrays if isinstance(array, ast.Name)}
+    for node in nodes:
+        if isinstance(node, ast.For) and any(isinstance(n, ast.Name) and n.id in names for n in ast.walk(node.target)):
+            yield node.iter
+
+
+def held_by(node: ast.AST) -> Iterator[ast.Name]:
+    """Names of what an expression is a part of, or a view, as a function of it may be; of several together."""
+    match node:
+        case ast.Name():
+            yield node
+        case ast.Subscript(of) | ast.Attribute(of):
+            yield from held_by(of)
+        case ast.Call(function, args):
+            yield from chain.from_iterable(map(held_by, (function, *args)))
+        case ast.Tuple(elts) | ast.List(elts):
+            yield from chain.from_iterable(map(held_by, elts))
+
+
+def changed(body: Sequence[ast.stmt], functions: Mapping[str, ast.FunctionDef] | None = None) -> dict[str, list[int]]:
+    """By the names of values, the numbers of the statements of a cell that change these in place.
+
+    Where all ``functions`` are known, beside its own, nothing is taken to be changed by others.
+    """
+    own = {line.name: line for line in body if isinstance(line, ast.FunctionDef)}
+    found, same = dict[str, list[int]](), dict[str, set[str]]()
+    for n, line in enumerate(body):
+        for name in _by_all_names(_changed(line, {**(functions or {}), **own}, functions is None), same):
+            found.setdefault(name, []).append(n)
+        for name in source.bound(line):
+            same.pop(name, None)
+        match line:
+            case ast.Assign([ast.Name(name)], value) | ast.AnnAssign(ast.Name(name), value=ast.expr() as value):
+                same[name] = {*_shown_by(value)} - {name}
+    return found
+
+
+def _by_all_names(names: set[str], same: Mapping[str, set[str]]) -> set[str]:
+    """Names of some values, and of those whose elements they show."""
+    found = [*names]
+    for name in found:
+        found += same.get(name, set()).difference(found)
+    return {*found}
+
+
+def _shown_by(value: ast.expr) -> Iterator[str]:
+    """Names of the values whose elements an expression may show."""
+    match value:
+        case ast.Name(name):
+            yield name
+        case ast.Subscript(of) | ast.Attribute(of, "T" | "real" | "imag" | "flat"):
+            yield from _shown_by(of)
+        case ast.IfExp(_, then, otherwise):
+            yield from chain(_shown_by(then), _shown_by(otherwise))
+        case ast.Call(ast.Attribute(of, function), args) if function in _SAME:
+            yield from chain.from_iterable(map(_shown_by, (of, *args[:1])))
+
+
+def _changed(line: ast.stmt, functions: Mapping[str, ast.FunctionDef], by_others: bool) -> set[str]:
+    """Names of what a statement changes in place, and of what it hands for nothing to others than these functions."""
+    if isinstance(line, ast.FunctionDef | ast.ClassDef):
+        return set()
+    nodes = source.nodes(line)
+    added = [node.target for node in nodes if isinstance(node, ast.AugAssign)]  # a number is bound anew by it
+    parts = list[ast.expr]()
+    for node in nodes:
+        match node:
+            case ast.Subscript(of, ctx=ast.Store() | ast.Del()) | ast.Attribute(of, ctx=ast.Store() | ast.Del()):
+                parts.append(of)
+            case ast.Call(ast.Attribute(of, name), [first, *_]) if name in FILLING and _is_of_numpy(of, name):
+                parts.append(first)
+            case ast.Call(ast.Attribute(of, name)) if name in _GROWING | ARRANGING and not _is_of_numpy(of, name):
+                parts.append(of)
+            case ast.keyword("out", array):
+                parts.append(array)
+            case ast.Expr(ast.Call(ast.Name(name), args, named)) if (
+                by_others and name not in functions.keys() | _SHOWING
+            ):
+                parts += [part for part in (*args, *(each.value for each in named)) if isinstance(part, ast.Name)]
+            case ast.Call(ast.Name(name)) if name in functions:
+                parts += _handed(node, functions[name], functions)
+    parts += turned_through(nodes, [*parts, *added])
+    return {name.id for part in parts for name in held_by(part)}
+
+
+def _handed(node: ast.Call, function: ast.FunctionDef, functions: Mapping[str, ast.FunctionDef]) -> list[ast.expr]:
+    """What a call hands to a function that changes it."""
+    others = {name: each for name, each in functions.items() if each is not function}
+    inside = {name for line in function.body for name in _changed(line, others, by_others=False)}
+    names = [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
+    given = [*zip(names, node.args, strict=False), *((each.arg, each.value) for each in node.keywords)]
+    return [value for name, value in given if name in inside]
+
+
+def _is_of_numpy(of: ast.expr, name: str) -> bool:
+    """Whether a function that is called by its ``name`` is numpy's, as ``np.add.at``, or of its random numbers."""
+    if name == "at":
+        return isinstance(of, ast.Attribute) and _is_of_numpy(of.value, "")
+    return isinstance(of, ast.Name) and (of.id in ("np", "numpy") or name == "shuffle")
