@@ -60,6 +60,14 @@ def test_what_is_changed_in_place_stands_without_its_formula(change: str) -> Non
     assert line.has_value and equation(line) == left(line)
 
 
+def test_what_was_made_of_what_is_changed_stands_without_its_formula() -> None:
+    """It would be another number by what is shown; a function of it gives what it is by then."""
+    lines = "w = np.array([1.0, 2.0])  # [m] w\nz = 2 * w[0]  # [m] z\nw[0] = 5.0"
+    assert equation(line_of(lines)) == left(line_of(lines))
+    line = line_of("z = lambda x: w[0] * x  # [m] z\nw[0] = 5.0")
+    assert equation(line) != left(line)
+
+
 @pytest.mark.parametrize("others", LEAVING)
 def test_what_is_not_changed_keeps_its_formula(others: str) -> None:
     line = line_of(Z + others)

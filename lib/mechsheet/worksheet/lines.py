@@ -142,7 +142,8 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 again = next((cell.body[n].lineno for n in binding.get(line.name, ()) if n > k), 0)
                 anew = () if line.arguments else (name for name in names_read(line) if binding.get(name, [-1])[-1] >= k)
                 expression = untold(line.expression, known)
-                if any(n > k for n in altering.get(line.name, ())):  # it gives what is another value by now
+                own = () if line.arguments else (line.name, *names_read(line))
+                if any(n > k for name in own for n in altering.get(name, ())):  # of which one is another value by now
                     expression = ast.copy_location(ast.Constant(...), expression)
                 yield line._replace(
                     unit=told.unit,
