@@ -9,6 +9,7 @@ from own_worksheet import own
 from mechsheet.document.expression import equation, left
 from mechsheet.document.left_out import left_out
 from mechsheet.html import write
+from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.source import of_texts
 
@@ -94,6 +95,15 @@ def test_what_another_cell_gives_is_not_changed_in_place(change: str, told: bool
     above = "z = np.zeros(3)\ndef of_above(s):\n    s[0] = g.F\n    return 2.0\ndef shown(s):\n    return s[0]"
     found = left_out(of_texts(((above, "own.py"), (change.replace("\n    ", "\n"), "own.py"))), {})
     assert [(each.cell, each.line) for each in found if "in place" in each.why] == [(1, 1 + ("v =" in change))] * told
+
+
+def test_a_value_that_is_altered_is_no_rounding_of_the_former_terms(tmp_path: Path) -> None:
+    """Nor is a name that is deleted an error in Python's words."""
+    lines = "z = np.array([1e5, 2e5]) - 1e5  # [m] lengths\nz[0] = 1e-12\nz[1] = 1e-12"
+    sheet = own(tmp_path, lines)
+    assert "≈" not in "".join(re.findall('id="line-z".*?lengths', write.page(sheet, sheet.inputs())))
+    with pytest.raises(SheetError, match=r"line \d+: z has no value where typeset\(\) shows it: it is deleted before"):
+        own(tmp_path, f"{lines}\ndel z").run_whole()
 
 
 def test_the_page_shows_what_it_is(tmp_path: Path) -> None:

@@ -52,9 +52,9 @@ def left(line: Formula, single: frozenset[str] = frozenset()) -> Node:
 
 @lru_cache(maxsize=4096)
 def right(line: Formula, single: frozenset[str] = frozenset()) -> Node | None:
-    """Right side of a line; None where it is a number or says the same as the left."""
+    """Right side of a line; None where it is a number, says the same as the left, or is not what the value is now."""
     node = None
-    if not isinstance(line.expression, ast.Constant):
+    if not (line.altered or isinstance(line.expression, ast.Constant)):
         node = tree(_written(line.expression, line), single=single)
     if isinstance(node, Measure) and node.unit == line.unit:
         return None

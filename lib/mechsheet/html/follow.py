@@ -222,7 +222,7 @@ class Follower:
     def about_nothing(self, line: Line) -> str:
         """What stands for a value that is nothing but the rounding of what its line, or a function, adds; else ""."""
         namespace = self.numbers.namespace if self.numbers else {}
-        if not is_rounding(line.value, line.formula.expression, namespace) and not self._left_over(line):
+        if not is_rounding(line.value, line.formula.adding, namespace) and not self._left_over(line):
             return ""
         unit = line.formula.unit
         return f"≈ {numbers.value(np.asarray(line.value).dtype.type(0).item(), unit, offered.notation(unit))}"
@@ -238,7 +238,7 @@ class Follower:
         if held.dtype.kind not in "fc":
             return {}
         behind = self.terms.recorded(held)
-        added = terms(line.formula.expression, self.recording.values)
+        added = terms(line.formula.adding, self.recording.values)
         own = [abs(part).re for part in (held.real, held.imag)]
         told = {"terms": added.re} if isinstance(added, Quantity) else {}
         told |= {} if behind.re.op == "constant" or behind.re in own else {"left": behind.re}

@@ -82,7 +82,7 @@ def _cleared(line: Formula, value: Any, namespace: Mapping[str, Any] | None) -> 
     """The value itself, or 0 of one that is nothing but the rounding of what its line, or a function, adds."""
     if namespace is None:
         return value
-    if is_rounding(value, line.expression, namespace) or _is_left_over(value, line, namespace):
+    if is_rounding(value, line.adding, namespace) or _is_left_over(value, line, namespace):
         return np.asarray(value).dtype.type(0).item()
     return value
 

@@ -30,7 +30,8 @@ class Formula(NamedTuple):
     units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
     in SI. ``solved`` are the names of solve blocks in it, each with one that tells the unknown, such as ``beta_found``.
     From the line ``again`` on its name has another value, which is not the line's; ``others`` are the names that
-    it reads and that have other values once the cell has run.
+    it reads and that have other values once the cell has run. Where a value is ``altered`` in place by then, its own or
+    one that it reads, its formula gives another one.
     """
 
     name: str
@@ -45,11 +46,17 @@ class Formula(NamedTuple):
     solved: tuple[tuple[str, str], ...] = ()
     again: int = 0
     others: frozenset[str] = frozenset()
+    altered: bool = False
 
     @property
     def has_value(self) -> bool:
         """Whether the value of its name is what the line gives; a function has none."""
         return not (self.arguments or self.again)
+
+    @property
+    def adding(self) -> ast.expr:
+        """What tells the terms of the value; those of one that is altered nobody knows."""
+        return ast.Constant(0.0) if self.altered else self.expression
 
 
 class Given(NamedTuple):
@@ -141,19 +148,17 @@ def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
                 meaning = told.meaning.removeprefix(printed).lstrip()
                 again = next((cell.body[n].lineno for n in binding.get(line.name, ()) if n > k), 0)
                 anew = () if line.arguments else (name for name in names_read(line) if binding.get(name, [-1])[-1] >= k)
-                expression = untold(line.expression, known)
                 own = () if line.arguments else (line.name, *names_read(line))
-                if any(n > k for name in own for n in altering.get(name, ())):  # of which one is another value by now
-                    expression = ast.copy_location(ast.Constant(...), expression)
                 yield line._replace(
                     unit=told.unit,
                     number=printed,
                     meaning=meaning,
                     mistake=told.mistake,
-                    expression=expression,
+                    expression=untold(line.expression, known),
                     where=tuple((name, untold(value, known)) for name, value in line.where),
                     again=again,
                     others=frozenset(anew),
+                    altered=any(n > k for name in own for n in altering.get(name, ())),
                 )
 
 

@@ -40,6 +40,10 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     except SheetError as error:
         refuse(error)
     rows = [displayed(row, display) if display and isinstance(row, Formula) else row for row in lines]
+    for row in rows:
+        if isinstance(row, Formula) and not row.again and row.name not in frame.f_globals:
+            why = f"{row.name} has no value where typeset() shows it: it is deleted before"
+            refuse(SheetError(f"{cell.at(row.expression.lineno)}: {why}"))
     values = tuple(
         existing(frame.f_globals[row.name]) if isinstance(row, Formula) and not row.again else None for row in rows
     )
