@@ -8,6 +8,7 @@ from own_worksheet import ELSEWHERE, assert_followed, own, recorded
 
 Z = "z = np.array([1.0, g.F, 3.0])\n"
 F = "def f(s):\n    s[0] = g.a\n"
+WAYS = "def f(c):\n    z = np.zeros(3) + g.a\n    if c > 3:\n        z[0] = 1.0\n        return z\n    z[0] = 2.0\n"
 STEP = (
     "state = np.zeros(3)\ndef step(s, h):\n    s[0] += h * s[1]\n    s[1] -= h * s[0] * g.a\n"
     "    s[2] = max(s[2], abs(s[0]))\nstate[1] = g.F\n"
@@ -83,6 +84,16 @@ TOLD = [
     F + "    if g.F > 3:\n        return 1.0\n    s[1] = g.a\n    return 2.0\nw = f(z)\ny = z * w",
     F + "    raise ValueError\ntry:\n    f(z)\nexcept ValueError:\n    pass\ny = z",
     F + "if g.F > 3:\n    f(z)\ny = z",
+    # ways of a function, each on its own copy
+    WAYS + "    return z\ny = f(g.F)",
+    WAYS + "    if c > 2:\n        z[1] = 3.0\n        return z * 2\n    z.sort()\n    return z\ny = f(g.F)",
+    WAYS.replace("    if", "    t = z\n    if") + "    return t\ny = f(g.F)",
+    WAYS.replace("    if", "    h = lambda: z[0] + z[1]\n    if") + "    return h()\ny = f(g.F)",
+    WAYS.replace("    if", "    def h():\n        return z[0] + z[1]\n    if") + "    return h()\ny = f(g.F)",
+    WAYS.replace("    if", "    h = (v for v in z)\n    if") + "    return next(h)\ny = f(g.F)",
+    WAYS + "    return sum(z[k] * k for k in range(3))\ny = f(g.F)",
+    "held = [0.0]\ndef f(c):\n    if c > 3:\n        held[0] += 1.0\n        return held[0]\n    held[0] = 5.0\n"
+    "    return 2.0\ny = f(g.F) + held[0]",
     F + "w = [f(z) for k in range(3)]\ny = z",
     F + "def h(s):\n    s[2] = g.a\ndef outer(f, s):\n    f(s)\nouter(h, z)\ny = z",
 ]
@@ -92,6 +103,14 @@ TOLD = [
 @pytest.mark.parametrize("lines", [*FOLLOWED, *(Z + lines for lines in TOLD)])
 def test_what_functions_change_is_never_stale(lines: str, tmp_path: Path) -> None:
     assert_never_stale(lines, tmp_path)
+
+
+def test_a_function_that_ends_early_is_followed_where_it_goes_the_same_way(tmp_path: Path) -> None:
+    """What its ways set in an array ended in words about a local variable."""
+    sheet = own(tmp_path, f"{WAYS}    return z\nresult = f(g.F) * g.a  # [-] line")
+    _, recording = recorded(sheet)
+    assert not recording.gaps
+    assert_followed(sheet, recording, [{}, {"F": 1.5, "a": 3.0}])
 
 
 @pytest.mark.parametrize("lines", FOLLOWED)

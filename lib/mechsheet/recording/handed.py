@@ -20,11 +20,10 @@ from mechsheet.quantities.quantity import Quantity, owner
 from mechsheet.recording.forms import call, changed_in_place
 from mechsheet.recording.in_place import NOT_SET, OTHER_NAME
 from mechsheet.recording.memory import Memory, either_of, shared_by
+from mechsheet.recording.ways import read_later
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
 
-# Functions that go through all of what they are given before they end.
-_AT_ONCE = {"sum", "max", "min", "any", "all", "list", "tuple", "set", "sorted"}
 _MADE = ast.Call, ast.BinOp, ast.UnaryOp, ast.Constant, ast.List, ast.Tuple  # values that nobody else knows
 
 
@@ -90,18 +89,9 @@ def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing]) -> _
         return _Changing(new, (), False)
     changed, added = changed_in_place(new.body)
     names = [each.arg for each in (*given.posonlyargs, *given.args)]
-    later = _read_later(function)
+    later = read_later(function)
     found = tuple(name for name in names if name in (changed | added) - later)
     return _Changing(new, found, not changed.isdisjoint(found))
-
-
-def _read_later(function: ast.FunctionDef) -> set[str]:
-    """Names that a function has somebody read, who may do so once it has ended."""
-    parts = [*ast.walk(function)]
-    calls = [(part.func, part.args) for part in parts if isinstance(part, ast.Call)]
-    at_once = {id(x) for of, args in calls if isinstance(of, ast.Name) and of.id in _AT_ONCE for x in args}
-    later = (x for x in parts if isinstance(x, ast.Lambda | ast.GeneratorExp) and id(x) not in at_once)
-    return {name.id for each in later for name in ast.walk(each) if isinstance(name, ast.Name)}
 
 
 def _handing(lines: Sequence[ast.stmt], known: Mapping[str, _Changing], own: Set[str] | None = None) -> list[ast.stmt]:
@@ -247,6 +237,29 @@ def _counted(array: Any) -> int:
 _ALONE = _alone()
 
 
+def unshared(values: list[Any]) -> None:
+    """NotRecorded where somebody knows one of some arrays beside the function that changes copies of them."""
+    if any(_is_array(value) and getrefcount(value) > _IN_LIST for value in values):
+        raise NotRecorded(OTHER_NAME)
+
+
+def copied(value: Any) -> Any:
+    """A copy of an array; what is none itself."""
+    return value.copy() if _is_array(value) else value
+
+
+def _in_list() -> int:
+    array = np.zeros(1)
+    return _most([array])
+
+
+def _most(values: list[Any]) -> int:
+    return max(getrefcount(value) for value in values)
+
+
+_IN_LIST = _in_list()
+
+
 def of_caller(result: Any, new: tuple[Any, ...], arrays: tuple[Any, ...]) -> Any:
     """What a function gives, which may be the arrays that it was handed, as the caller knows these."""
     for one, array in zip(new, arrays, strict=True):
@@ -259,4 +272,6 @@ def of_caller(result: Any, new: tuple[Any, ...], arrays: tuple[Any, ...]) -> Any
     return result
 
 
-CALLS: dict[str, Any] = {"handed": handed, "back": back, "of_caller": of_caller}
+CALLS: dict[str, Any] = {
+    "handed": handed, "back": back, "of_caller": of_caller, "unshared": unshared, "copied": copied,
+}  # fmt: skip

@@ -63,6 +63,7 @@ from mechsheet.recording.ways import (
     ends,
     is_of_the_whole,
     looking,
+    on_copies,
     only_bind,
     returning,
     turned,
@@ -331,10 +332,10 @@ class _Rewriting(ast.NodeTransformer):
                 if isinstance(line, ast.If) and any(isinstance(part, ast.Return) for part in ast.walk(line)):
                     rest = node.body[n + 1 :]
                     if ends(line.body) or ends(line.orelse):
-                        ways = [way if ends(way) else [*way, *rest] for way in (line.body, line.orelse)]
+                        ways, alone = on_copies(node, line, rest)
                         names = sorted({name for way in ways for part in way for name in bound(part)})
                         defined, chosen = _both_ways(line, ways[0], ways[1], names)
-                        node.body = [*node.body[:n], *defined, ast.copy_location(ast.Return(chosen), line)]
+                        node.body = [*node.body[:n], *alone, *defined, ast.copy_location(ast.Return(chosen), line)]
                     break
         outside, self.within = self.within, self.within or node
         around, self.inside = self.inside, self.inside if node.name.startswith("recorded ") else node

@@ -3,7 +3,7 @@
 import ast
 from collections.abc import Iterable, Iterator
 
-from mechsheet.recording.forms import SCOPED
+from mechsheet.recording.forms import SCOPED, call, changed_in_place
 from mechsheet.worksheet.source import bound
 
 
@@ -143,6 +143,41 @@ def ended(function: ast.FunctionDef) -> list[ast.stmt]:
     if not gives or ends(function.body):
         return function.body
     return [*function.body, ast.copy_location(ast.Return(ast.Constant(None)), function.body[-1])]
+
+
+def read_later(function: ast.FunctionDef) -> set[str]:
+    """Names that a function has somebody read, who may do so once they are others, or once it has ended."""
+    parts = [part for line in function.body for part in ast.walk(line)]
+    calls = [(part.func, part.args) for part in parts if isinstance(part, ast.Call)]
+    at_once = {id(x) for of, args in calls if isinstance(of, ast.Name) and of.id in _AT_ONCE for x in args}
+    later: list[ast.AST] = [x for x in parts if isinstance(x, ast.Lambda | ast.GeneratorExp) and id(x) not in at_once]
+    later += [x for x in parts if isinstance(x, ast.FunctionDef) and not x.name.startswith("recorded ")]
+    return {name.id for each in later for name in ast.walk(each) if isinstance(name, ast.Name)}
+
+
+# Functions that go through all of what they are given before they end.
+_AT_ONCE = {"sum", "max", "min", "any", "all", "list", "tuple", "set", "sorted"}
+
+
+def on_copies(
+    function: ast.FunctionDef, node: ast.If, rest: list[ast.stmt]
+) -> tuple[list[list[ast.stmt]], list[ast.stmt]]:
+    """The ways of a function that a condition and the ``rest`` are, on copies of the arrays that these change in place.
+
+    And, before them, a look at whether somebody else knows one of these arrays.
+    """
+    ways = [way if ends(way) else [*way, *rest] for way in (node.body, node.orelse)]
+    own = bound_in(function) - read_later(function)
+    changed = sorted(own.intersection(set[str]().union(*changed_in_place([line for way in ways for line in way]))))
+    if not changed:
+        return ways, []
+    local = ast.Call(ast.Name("locals", ast.Load()), [], [])
+    alone = ast.Expr(call("unshared", node, call("known", node, local, *map(ast.Constant, changed))))
+    copies = [
+        ast.Assign([ast.Name(name, ast.Store())], call("copied", node, ast.Name(name, ast.Load()))) for name in changed
+    ]
+    lines = [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (alone, *copies)]
+    return [[*lines[1:], *way] for way in ways], lines[:1]
 
 
 def ends(way: list[ast.stmt]) -> bool:
