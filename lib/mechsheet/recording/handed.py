@@ -19,12 +19,11 @@ from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity, owner
 from mechsheet.recording.forms import call, changed_in_place
 from mechsheet.recording.in_place import NOT_SET, OTHER_NAME
-from mechsheet.recording.memory import Memory, either_of, shared_by
+from mechsheet.recording.memory import Memory, either_of
+from mechsheet.recording.own_arrays import is_new
 from mechsheet.recording.ways import read_later
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
-
-_MADE = ast.Call, ast.BinOp, ast.UnaryOp, ast.Constant, ast.List, ast.Tuple  # values that nobody else knows
 
 
 class _Changing(NamedTuple):
@@ -128,7 +127,7 @@ def _handed_back(line: ast.stmt, known: Mapping[str, _Changing], own: Set[str] |
     names = [array.id for array in arrays if isinstance(array, ast.Name)]
     if not names or len({*names}) < len(names) or (own is not None and (name in own or not own >= {*names})):
         return []
-    if not all(isinstance(array, (ast.Name, *_MADE)) for array in arrays):
+    if not all(isinstance(array, ast.Name) or (array and is_new(array)) for array in arrays):
         return []
     new = [f"_new {line.lineno} {k}" for k, _ in enumerate(arrays)]
     pairs = [(x, array.id) for x, array in zip(new, arrays, strict=True) if isinstance(array, ast.Name)]
@@ -185,9 +184,6 @@ class _Returning(ast.NodeTransformer):
         node.value = ast.Tuple([*back, node.value or ast.Constant(None)], ast.Load())
         return node
 
-    def visit_Lambda(self, node: ast.Lambda) -> ast.Lambda:
-        return node
-
 
 # --- what the calls do -----------------------------------------------------------------------------------------------
 
@@ -200,20 +196,11 @@ def handed(array: Any, function: FunctionType, *others: Any) -> Any:
     """A copy of an array, in its place in a function that nothing else hands it to; what is none itself."""
     if not _is_array(array):
         return array
-    reached = {name: function.__globals__.get(name) for name in _read_by(function)} | {"": others}
-    if Memory.named(reached, {*map(id, (owner(array), array, *either_of(array)))}):
+    memory = Memory([function, *others], function.__globals__)
+    memory.follow()
+    if not memory.arrays.isdisjoint(map(id, (owner(array), array, *either_of(array)))):
         raise NotRecorded(OTHER_NAME)
     return array.copy()
-
-
-def _read_by(function: FunctionType) -> set[str]:
-    """Names of the worksheet that a function reads, and those that it calls by them."""
-    found, waiting, own = set[str](), [function], function.__globals__
-    for f in waiting:
-        new = shared_by(f.__code__) - found
-        found |= new
-        waiting += [x for x in map(own.get, new) if isinstance(x, FunctionType) and x.__globals__ is own]
-    return found
 
 
 def back(array: Any) -> Any:
@@ -225,16 +212,11 @@ def back(array: Any) -> Any:
     return array
 
 
-def _alone() -> int:
-    array = np.zeros(1)
-    return _counted(array)
-
-
 def _counted(array: Any) -> int:
     return getrefcount(array)
 
 
-_ALONE = _alone()
+_ALONE = (lambda array: _counted(array))(np.zeros(1))  # of one with one name, where it is handed
 
 
 def unshared(values: list[Any]) -> None:
@@ -248,16 +230,11 @@ def copied(value: Any) -> Any:
     return value.copy() if _is_array(value) else value
 
 
-def _in_list() -> int:
-    array = np.zeros(1)
-    return _most([array])
-
-
 def _most(values: list[Any]) -> int:
     return max(getrefcount(value) for value in values)
 
 
-_IN_LIST = _in_list()
+_IN_LIST = (lambda array: _most([array]))(np.zeros(1))  # of one with one name, in a list
 
 
 def of_caller(result: Any, new: tuple[Any, ...], arrays: tuple[Any, ...]) -> Any:

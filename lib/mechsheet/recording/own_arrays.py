@@ -22,7 +22,7 @@ def of_its_own(function: ast.FunctionDef) -> set[str]:
         if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple) and len(target.elts) == len(value.elts)
         for pair in zip(target.elts, value.elts, strict=True)
     ]
-    new = {id(target): target.id for target, value in pairs if isinstance(target, ast.Name) and _is_new(value)}
+    new = {id(target): target.id for target, value in pairs if isinstance(target, ast.Name) and is_new(value)}
     kept = {id(node.target) for node in nodes if isinstance(node, ast.AugAssign)}
     names = (node for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store))
     others = {node.id for node in names if id(node) not in new.keys() | kept}
@@ -30,7 +30,8 @@ def of_its_own(function: ast.FunctionDef) -> set[str]:
     return {*new.values()}.difference(others, *(n.names for n in nodes if isinstance(n, ast.Global | ast.Nonlocal)))
 
 
-def _is_new(value: ast.expr) -> bool:
+def is_new(value: ast.expr) -> bool:
+    """Whether an expression gives a value that nobody knows."""
     match value:
         case ast.Call(ast.Name(name) | ast.Attribute(_, name)):
             return name in _NEW
