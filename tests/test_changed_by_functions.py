@@ -8,6 +8,7 @@ from own_worksheet import ELSEWHERE, assert_followed, own, recorded
 
 Z = "z = np.array([1.0, g.F, 3.0])\n"
 F = "def f(s):\n    s[0] = g.a\n"
+OWN = "K = np.zeros(3)\ndef one(k):\n    K[k] += max(0.0, g.a - 0.8)\n"
 WAYS = "def f(c):\n    z = np.zeros(3) + g.a\n    if c > 3:\n        z[0] = 1.0\n        return z\n    z[0] = 2.0\n"
 STEP = (
     "state = np.zeros(3)\ndef step(s, h):\n    s[0] += h * s[1]\n    s[1] -= h * s[0] * g.a\n"
@@ -54,6 +55,12 @@ FOLLOWED = [
     "z = np.array([1, 2, 3])\ndef f(s):\n    s[0] = g.F\nf(z)\ny = z",  # of whole numbers
     Z + "def f(s, t):\n    s[0] = t[1]\n    t[0] = s[0] + 1\n    return t\nw = z * 2\nv = f(z, w)\ny = z + w + v",
     Z + "def f(s, n):\n    s[n] = g.a + n\n    if n > 0:\n        f(s, n - 1)\nf(z, 2)\ny = z",
+    # arrays of the worksheet, which functions are not handed
+    STEP.replace("(s, h)", "(h)").replace("s[", "state[") + "for i in range(12):\n    step(0.1)\ny = state",
+    OWN + "def all_of(n):\n    for k in range(n):\n        one(k)\n    return K.sum()\nw = all_of(3)\ny = K + w",
+    OWN.replace("(k)", "(s, k)") + "    s[0] = g.a\nM = np.ones(3)\none(M, 1)\ny = K + M",
+    OWN.replace("(k)", "(k, K)") + "w = np.ones(3)\none(1, w)\ny = K + w",
+    OWN.replace("    K[k]", "    K = np.ones(3)\n    K[k]") + "    return K\nw = one(1)\ny = K + w",
     Z + "def f(s, k):\n    for i in range(k):\n        s[i % 3] += g.a / (i + 1)\nf(z, g.n)\ny = z",
 ]
 TOLD = [
@@ -87,6 +94,13 @@ TOLD = [
     F + "    if g.F > 3:\n        return 1.0\n    s[1] = g.a\n    return 2.0\nw = f(z)\ny = z * w",
     F + "    raise ValueError\ntry:\n    f(z)\nexcept ValueError:\n    pass\ny = z",
     F + "if g.F > 3:\n    f(z)\ny = z",
+    OWN + "    return total()\ndef total():\n    return K.sum()\nw = one(1)\ny = K + w",
+    OWN + "L = K\none(1)\ny = K + L",
+    OWN.replace("(k)", "(s, k)") + "    s[0] = max(s[0], g.a - 0.8)\none(K, 1)\ny = K",
+    OWN + "    return K\nw = one(1)\nw[2] = max(w[2], g.a - 0.8)\ny = K + w",
+    OWN + "h = lambda: K[1]\ndef two(k):\n    one(k)\n    return h()\nw = two(1)\ny = K + w",
+    OWN + "    return 1.0\ny = one(1) + K",
+    "K = np.zeros(3)\nclass Box:\n    def push(self, k):\n        K[k] += max(0.0, g.a - 0.8)\nBox().push(1)\ny = K",
     # ways of a function, each on its own copy
     WAYS + "    return z\ny = f(g.F)",
     WAYS + "    if c > 2:\n        z[1] = 3.0\n        return z * 2\n    z.sort()\n    return z\ny = f(g.F)",

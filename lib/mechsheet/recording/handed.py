@@ -20,7 +20,7 @@ from mechsheet.quantities.quantity import Quantity, owner
 from mechsheet.recording.forms import call, changed_in_place
 from mechsheet.recording.in_place import NOT_SET, OTHER_NAME
 from mechsheet.recording.memory import Memory, either_of
-from mechsheet.recording.own_arrays import is_new
+from mechsheet.recording.own_arrays import ARRAYS, is_new
 from mechsheet.recording.ways import read_later
 from mechsheet.worksheet import source
 from mechsheet.worksheet.cells import Cell, Worksheet
@@ -32,6 +32,7 @@ class _Changing(NamedTuple):
     function: ast.FunctionDef
     changed: tuple[str, ...]
     surely: bool  # and not by ``+=`` alone, which binds a number anew
+    beside: tuple[str, ...] = ()  # of them arrays of the worksheet, which it is not handed
 
     @property
     def giving(self) -> str:
@@ -68,15 +69,24 @@ def _changing(sheet: Worksheet) -> Mapping[str, _Changing]:
     every = (*sheet.whole, *(line for cell in sheet.cells for line in cell.lines))
     given = Counter(name for line in every for name in source.bound(line))
     functions = [line for line in every if isinstance(line, ast.FunctionDef) and given[line.name] == 1]
+    arrays = {name for name in filter(None, map(_of_array, every)) if given[name] == 1}
     known = dict[str, _Changing]()
     while True:
-        found = {each.function.name: each for f in functions if (each := _as_changing(f, known)).changed}
+        found = {each.function.name: each for f in functions if (each := _as_changing(f, known, arrays)).changed}
         if {name: each[1:] for name, each in found.items()} == {name: each[1:] for name, each in known.items()}:
             return found
         known = found
 
 
-def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing]) -> _Changing:
+def _of_array(line: ast.stmt) -> str:
+    """Name that a statement gives to a new array."""
+    match line:
+        case ast.Assign([ast.Name(name)], ast.Call(ast.Name(of) | ast.Attribute(_, of))) if of in ARRAYS:
+            return name
+    return ""
+
+
+def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing], arrays: Set[str]) -> _Changing:
     """A function with the arguments that it changes in place and never binds to anything else, where that is told."""
     new: Any = _handing([function], known)[0]
     given, parts = function.args, [part for line in function.body for part in ast.walk(line)]
@@ -89,8 +99,9 @@ def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing]) -> _
     changed, added = changed_in_place(new.body)
     names = [each.arg for each in (*given.posonlyargs, *given.args)]
     later = read_later(function)
-    found = tuple(name for name in names if name in (changed | added) - later)
-    return _Changing(new, found, not changed.isdisjoint(found))
+    beside = tuple(sorted((changed & arrays) - source.local(function) - later))
+    found = (*(name for name in names if name in (changed | added) - later), *beside)
+    return _Changing(new, found, not changed.isdisjoint(found), beside)
 
 
 def _handing(lines: Sequence[ast.stmt], known: Mapping[str, _Changing], own: Set[str] | None = None) -> list[ast.stmt]:
@@ -122,10 +133,13 @@ def _handed_back(line: ast.stmt, known: Mapping[str, _Changing], own: Set[str] |
             pass
         case _:
             return []
-    given = _arguments(node, known[name].function.args)
+    beside: dict[str, ast.expr] = {each: ast.Name(each, ast.Load()) for each in known[name].beside}
+    given = _arguments(node, known[name].function.args) | beside
     arrays = [given.get(each) for each in known[name].changed]
     names = [array.id for array in arrays if isinstance(array, ast.Name)]
-    if not names or len({*names}) < len(names) or (own is not None and (name in own or not own >= {*names})):
+    if not names or len({*names}) < len(names):
+        return []
+    if own is not None and (name in own or not own >= {*names} - beside.keys() or not own.isdisjoint(beside)):
         return []
     if not all(isinstance(array, ast.Name) or (array and is_new(array)) for array in arrays):
         return []
@@ -133,7 +147,8 @@ def _handed_back(line: ast.stmt, known: Mapping[str, _Changing], own: Set[str] |
     pairs = [(x, array.id) for x, array in zip(new, arrays, strict=True) if isinstance(array, ast.Name)]
     result = f"_given {line.lineno}"
     nothing: list[ast.expr] = [ast.Constant(None) for _ in (*new, result)]
-    giving = ast.Call(ast.Name(known[name].giving, ast.Load()), node.args, node.keywords)
+    keywords = [*node.keywords, *(ast.keyword(each, value) for each, value in beside.items())]
+    giving = ast.Call(ast.Name(known[name].giving, ast.Load()), node.args, keywords)
     lines: list[ast.stmt] = [ast.Assign([_stored(*new, result)], giving)]
     for x, array in pairs:
         whole = ast.Subscript(ast.Name(array, ast.Load()), ast.Constant(...), ast.Store())
@@ -160,6 +175,8 @@ def _as_giving(each: _Changing) -> ast.FunctionDef:
     """The function that gives back the arrays which it changes, copies of those that it is handed."""
     function = deepcopy(each.function)
     function.name, args = each.giving, function.args
+    args.kwonlyargs += map(ast.arg, each.beside)
+    args.kw_defaults += [None] * len(each.beside)
     others = [arg.arg for arg in (*args.posonlyargs, *args.args, *args.kwonlyargs)]
     others += [arg.arg for arg in (args.vararg, args.kwarg) if arg]
     begun = list[ast.stmt]()

@@ -6,10 +6,11 @@ from collections.abc import Set
 from mechsheet.recording.forms import call
 from mechsheet.worksheet.altered import ARRANGING, FILLING
 
-_NEW = {
+ARRAYS = {  # functions that give new ones
     "zeros", "ones", "empty", "full", "eye", "arange", "linspace", "array", "copy", "zeros_like", "ones_like",
-    "empty_like", "full_like", "float", "int", "len", "sum", "abs", "sqrt", "sorted", "list",
+    "empty_like", "full_like",
 }  # fmt: skip
+_NEW = {*ARRAYS, "float", "int", "len", "sum", "abs", "sqrt", "sorted", "list"}
 
 
 def of_its_own(function: ast.FunctionDef) -> set[str]:
