@@ -35,6 +35,10 @@ class Meant:
         self.made.clear()
         self.before = [ref for ref in (*self.before, *made) if (each := ref()) is not None and not each.is_stale()]
 
+    def compared(self, value: Any) -> int:
+        """How often a value is held by what compares later what there was."""
+        return sum(one == id(value) for memory in self.memories for one in memory.holding())
+
     def are_known(self, ways: Sequence[Any]) -> bool:
         """Whether somebody else than what stands for them knows one of some lists."""
         held = Counter[int]()

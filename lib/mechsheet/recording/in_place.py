@@ -4,6 +4,7 @@ import operator
 import weakref
 from collections.abc import Callable, Iterator
 from functools import reduce
+from sys import getrefcount
 from typing import Any
 
 import numpy as np
@@ -208,6 +209,29 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     return new
 
 
+_KEEPING = object.__setattr__, type.__setattr__  # which do nothing but keep what is set
+
+
+def put_held(value: Any, holder: Any, name: str, key: Any) -> None:
+    """``holder.name[key] = value``."""
+    array = getattr(holder, name)
+    new = put(array, key, value)
+    if new is not array:
+        if type(holder).__setattr__ not in _KEEPING or isinstance(getattr(type(holder), name, None), property):
+            raise NotRecorded(f"an array of an object that sees to it itself when {name} is set")
+        del array, value  # of which it may be a part
+        setattr(holder, name, new)
+        settled(new)
+
+
+def changed_held(value: Any, holder: Any, name: str, operation: str) -> None:
+    """``holder.name += value``, or another such operation."""
+    new = changed(getattr(holder, name), operation, value)
+    del value
+    setattr(holder, name, new)
+    settled(new)
+
+
 def arranged(old: Any, method: str, named: dict[str, Any], *args: Any) -> Any:
     """``old`` after ``old.sort()`` or ``old.fill(value)``."""
     if type(old) is list and method == "sort" and not args:
@@ -237,9 +261,20 @@ def former(values: list[Any]) -> list[Any]:
 
 
 def left(arrays: list[Any]) -> None:
-    """End the changes of arrays by the turns of a loop: nobody else may know one as it was before."""
-    if any(array() is not None for array in arrays):
-        raise NotRecorded(OTHER_NAME)
+    """End the changes of arrays: nobody else may know one as it was before, but for who compares what there was."""
+    for known in arrays:
+        if (array := known()) is not None:
+            compared = current.get().meant.compared(array)
+            if getrefcount(array) > _BY_ONE + compared:
+                raise NotRecorded(OTHER_NAME)
+
+
+def _by_one_name() -> int:
+    array = np.zeros(1)
+    return getrefcount(array)
+
+
+_BY_ONE = _by_one_name()
 
 
 def settled(new: Any) -> None:
@@ -265,6 +300,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
-    "live": live,
+    "live": live, "put_held": put_held, "changed_held": changed_held,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

@@ -2,8 +2,10 @@
 
 import ast
 from collections.abc import Set
+from copy import deepcopy
 
-from mechsheet.recording.forms import call
+from mechsheet.recording.exactly import OPERATIONS
+from mechsheet.recording.forms import call, index
 from mechsheet.worksheet.altered import ARRANGING, FILLING
 
 ARRAYS = {  # functions that give new ones
@@ -63,3 +65,42 @@ def is_outside(node: ast.Call) -> bool:
     """Whether there may be such an array."""
     name = node.func.attr if isinstance(node.func, ast.Attribute) else ""
     return name in ARRANGING or name in FILLING or any(keyword.arg == "out" for keyword in node.keywords)
+
+
+def put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
+    """An element of an array that is set."""
+    return bound_anew(node, name, "put", index(key), value)
+
+
+def bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple[ast.stmt, ast.Expr]:
+    """A change in place as a new value of the name, of which nobody knows the old one."""
+    known = ast.Name(name, ast.Load())
+    bind = ast.Assign([ast.Name(name, ast.Store())], call(change, node, known, *args))
+    return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
+
+
+def put_held(node: ast.Assign) -> ast.stmt:
+    """An element that is set of an array which an object holds."""
+    match node.targets:
+        case [ast.Subscript(ast.Attribute(of, name), key)]:
+            changed = call("put_held", node, node.value, of, ast.Constant(name), index(key))
+            return ast.copy_location(ast.Expr(changed), node)
+    return node
+
+
+def added_held(node: ast.AugAssign) -> ast.stmt:
+    """The same of ``o.K[i] += x``, and ``o.K += x``, where to look for the object does nothing else."""
+    match node.target:
+        case ast.Subscript(ast.Attribute(of, name) as array, key) if _is_path(of) and _is_path(key):
+            old = call("element", node, ast.Attribute(deepcopy(array.value), name, ast.Load()), index(deepcopy(key)))
+            changed = call("put_held", node, ast.BinOp(old, node.op, node.value), of, ast.Constant(name), index(key))
+        case ast.Attribute(of, name):
+            changed = call("changed_held", node, node.value, of, *map(ast.Constant, (name, OPERATIONS[type(node.op)])))
+        case _:
+            return node
+    return ast.copy_location(ast.Expr(changed), node)
+
+
+def _is_path(part: ast.expr) -> bool:
+    """Whether an expression is read twice as it is read once."""
+    return not any(isinstance(each, ast.Call | ast.NamedExpr | ast.Await | ast.Yield) for each in ast.walk(part))

@@ -216,17 +216,19 @@ class _Rewriting(ast.NodeTransformer):
         self.generic_visit(node)
         match node.targets:
             case [ast.Subscript(ast.Name(name), key)] if self.binds(name):
-                return _put(node, name, key, node.value)
+                return own_arrays.put(node, name, key, node.value)
             case [ast.Attribute(ast.Name(name), ("real" | "imag") as part)] if self.binds(name):
-                return _bound_anew(node, name, "part", ast.Constant(part), node.value)
-        return node
+                return own_arrays.bound_anew(node, name, "part", ast.Constant(part), node.value)
+        return own_arrays.put_held(node)
 
     def visit_Expr(self, node: ast.Expr) -> Any:
         """What is put in order in place, or filled; not where its name is of those outside of a function."""
         match node.value:
             case ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill" as method), args, by) if self.binds(name):
                 named = ast.Call(ast.Name("dict", ast.Load()), [], [*map(self.visit, by)])
-                return _bound_anew(node, name, "arranged", ast.Constant(method), named, *map(self.visit, args))
+                return own_arrays.bound_anew(
+                    node, name, "arranged", ast.Constant(method), named, *map(self.visit, args)
+                )
         return self.generic_visit(node)
 
     def visit_AugAssign(self, node: ast.AugAssign) -> Any:
@@ -234,13 +236,13 @@ class _Rewriting(ast.NodeTransformer):
         match node.target:
             case ast.Subscript(ast.Name(name), key) if self.binds(name):
                 old = call("element", node, ast.Name(name, ast.Load()), key)
-                return _put(node, name, key, ast.BinOp(old, node.op, node.value))
+                return own_arrays.put(node, name, key, ast.BinOp(old, node.op, node.value))
             case ast.Name(name):
                 operation = ast.Constant(exactly.OPERATIONS[type(node.op)])
-                bind, end = _bound_anew(node, name, "changed", operation, node.value)
+                bind, end = own_arrays.bound_anew(node, name, "changed", operation, node.value)
                 settled = ast.Assign([ast.Name("recorded nothing", ast.Store())], end.value)  # no sign of a change
                 return [bind, ast.copy_location(settled, node)]
-        return node
+        return own_arrays.added_held(node)
 
     def visit_If(self, node: ast.If) -> Any:
         """A statement whose ways only bind names gives the names the values of both ways."""
@@ -267,7 +269,7 @@ class _Rewriting(ast.NodeTransformer):
         """The element is looked for only where the statement sets it."""
         key = later(index(target.slice))
         name: Any = target.value
-        return _bound_anew(node, name.id, "put_where", self.visit(key), self.visit(value))
+        return own_arrays.bound_anew(node, name.id, "put_where", self.visit(key), self.visit(value))
 
     def visit_While(self, node: ast.While) -> Any:
         ended = ast.If(ast.UnaryOp(ast.Not(), node.test), [ast.Break()], [])
@@ -396,17 +398,6 @@ def _both_ways(
 
 def _call_of(name: str) -> ast.Call:
     return ast.Call(ast.Name(name, ast.Load()), [], [])
-
-
-def _put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:
-    return _bound_anew(node, name, "put", index(key), value)
-
-
-def _bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple[ast.stmt, ast.Expr]:
-    """A change in place as a new value of the name, of which nobody knows the old one."""
-    known = ast.Name(name, ast.Load())
-    bind = ast.Assign([ast.Name(name, ast.Store())], call(change, node, known, *args))
-    return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
 
 
 def compiled(statement: ast.stmt, path: str, exact: bool = False) -> CodeType:
