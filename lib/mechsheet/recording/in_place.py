@@ -5,6 +5,7 @@ import weakref
 from collections.abc import Callable, Iterator
 from functools import reduce
 from sys import getrefcount
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -209,18 +210,38 @@ def changed(old: Any, operation: str, value: Any) -> Any:
     return new
 
 
-_KEEPING = object.__setattr__, type.__setattr__  # which do nothing but keep what is set
+# What does nothing but keep what is set.
+_KEEPING: tuple[Any, ...] = object.__setattr__, type.__setattr__, SimpleNamespace.__setattr__
+_HOLDING: tuple[Any, ...] = list.__setitem__, dict.__setitem__
 
 
-def put_held(value: Any, holder: Any, name: str, key: Any) -> None:
-    """``holder.name[key] = value``."""
+def put_held(value: Any, holder: Any, name: str, key: Any, operation: str = "") -> None:
+    """``holder.name[key] = value``, or ``+=`` or another such ``operation``."""
     array = getattr(holder, name)
+    value = changed(element(array, key), operation, value) if operation else value
+    if isinstance(holder, np.ndarray | Quantity):  # of which it is a part
+        array[key] = value
+        return
     new = put(array, key, value)
     if new is not array:
         if type(holder).__setattr__ not in _KEEPING or isinstance(getattr(type(holder), name, None), property):
             raise NotRecorded(f"an array of an object that sees to it itself when {name} is set")
         del array, value  # of which it may be a part
         setattr(holder, name, new)
+        settled(new)
+
+
+def put_within(value: Any, holder: Any, place: Any, key: Any, operation: str = "") -> None:
+    """``holder[place][key] = value``, or ``+=`` or another such ``operation``."""
+    array = element(holder, place)
+    value = changed(element(array, key), operation, value) if operation else value
+    if getattr(type(holder), "__setitem__", None) not in _HOLDING or isinstance(place, Quantity | Written | slice):
+        array[key] = value
+        return
+    new = put(array, key, value)
+    if new is not array:
+        del array, value
+        holder[place] = new
         settled(new)
 
 
@@ -301,5 +322,6 @@ CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
     "live": live, "put_held": put_held, "changed_held": changed_held,
+    "put_within": put_within,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

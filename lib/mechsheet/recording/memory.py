@@ -39,6 +39,7 @@ _METHODS = {  # which change what they are called of, in the middle of an expres
     "discard", "clear", "__setitem__",
 }  # fmt: skip
 _SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
+_SETTING_HELD = {f"recorded {change}" for change in ("put_held", "put_within", "changed_held")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,
@@ -220,7 +221,9 @@ def _to_look_at(values: Iterable[Any], hidden: bool) -> list[tuple[Any, bool]]:
 
 def sets_of_others(line: CodeType, *functions: CodeType) -> bool:
     """Whether functions may set elements of arrays that are not their own, or a line does under no name of its own."""
-    return any(map(_sets, (line, *functions))) or any(not _SETTING.isdisjoint(names_of(code)) for code in functions)
+    if any(_sets(code) or not _SETTING_HELD.isdisjoint(names_of(code)) for code in (line, *functions)):
+        return True
+    return any(not _SETTING.isdisjoint(names_of(code)) for code in functions)
 
 
 @lru_cache(maxsize=4096)

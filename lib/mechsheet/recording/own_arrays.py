@@ -2,7 +2,6 @@
 
 import ast
 from collections.abc import Set
-from copy import deepcopy
 
 from mechsheet.recording.exactly import OPERATIONS
 from mechsheet.recording.forms import call, index
@@ -80,27 +79,36 @@ def bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple
 
 
 def put_held(node: ast.Assign) -> ast.stmt:
-    """An element that is set of an array which an object holds."""
+    """An element that is set of an array which an object holds, or a dictionary or a list."""
     match node.targets:
-        case [ast.Subscript(ast.Attribute(of, name), key)]:
-            changed = call("put_held", node, node.value, of, ast.Constant(name), index(key))
-            return ast.copy_location(ast.Expr(changed), node)
+        case [ast.Subscript(array, key)] if found := _holder(array):
+            return _changing(node, *found, node.value, index(key))
     return node
 
 
 def added_held(node: ast.AugAssign) -> ast.stmt:
-    """The same of ``o.K[i] += x``, and ``o.K += x``, where to look for the object does nothing else."""
+    """The same of ``o.K[i] += x``, and ``o.K += x``."""
+    operation = ast.Constant(OPERATIONS[type(node.op)])
     match node.target:
-        case ast.Subscript(ast.Attribute(of, name) as array, key) if _is_path(of) and _is_path(key):
-            old = call("element", node, ast.Attribute(deepcopy(array.value), name, ast.Load()), index(deepcopy(key)))
-            changed = call("put_held", node, ast.BinOp(old, node.op, node.value), of, ast.Constant(name), index(key))
+        case ast.Subscript(array, key) if found := _holder(array):
+            return _changing(node, *found, node.value, index(key), operation)
         case ast.Attribute(of, name):
-            changed = call("changed_held", node, node.value, of, *map(ast.Constant, (name, OPERATIONS[type(node.op)])))
-        case _:
-            return node
-    return ast.copy_location(ast.Expr(changed), node)
+            return _changing(node, "changed_held", of, ast.Constant(name), node.value, operation)
+    return node
 
 
-def _is_path(part: ast.expr) -> bool:
-    """Whether an expression is read twice as it is read once."""
-    return not any(isinstance(each, ast.Call | ast.NamedExpr | ast.Await | ast.Yield) for each in ast.walk(part))
+def _holder(array: ast.expr) -> tuple[str, ast.expr, ast.expr] | None:
+    """What holds an array, and where: with the call that sets an element of the array."""
+    match array:
+        case ast.Attribute(of, name):
+            return "put_held", of, ast.Constant(name)
+        case ast.Subscript(of, place):
+            return "put_within", of, index(place)
+        case ast.Call(ast.Name("recorded element"), [of, place]):
+            return "put_within", of, place
+    return None
+
+
+def _changing(node: ast.stmt, change: str, of: ast.expr, place: ast.expr, *how: ast.expr) -> ast.stmt:
+    value, *more = how
+    return ast.copy_location(ast.Expr(call(change, node, value, of, place, *more)), node)
