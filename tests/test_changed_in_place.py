@@ -143,6 +143,8 @@ AS_WHOLE = [
     ("f = round(g.F) if g.F > 2 else 2.0\nb = np.array([f, f])\nb[1] = g.a * 0.75", ("b[1]",)),
     ("f = 2.0 if g.F > 3 else 1 if g.F > 2 else 0.5\nb = np.array([f + 1, f])\nb[1] = g.a * 0.75", ("b[1]",)),
     ("f = min(2, g.F)\nb = np.full_like([f, f], 0.75)", ("b[0]",)),
+    ("b = np.array([q if q > 9 * abs(g.F) else 3 for q in x])\nb[1] = max(1.0, g.a * 1.3)", ("b[1]",)),
+    ("b = np.array([q if q > 9 * abs(g.F) else g.n for q in x])\nb[g.k] *= max(1.0, g.a)", ("b[2]",)),
 ]
 
 ARRAYS = "A, B = np.array([4.0, 2.0]), np.array([1.0, 6.0])\n"

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 SETUP = """
 import math
+from types import SimpleNamespace as S
 from typing import Literal
 
 import numpy as np
@@ -93,9 +94,18 @@ STATEMENTS = [
 CHANGES = [
     "$A[$p] $o $f", "$A[$s] = $f", "$A[$A > $f] = $f", "$A $o $f", "$A.sort()", "if $b:\n    $A $o $f",
     "if $b:\n    $A[$p] = $f", "$A[0], $A[-1] = $A[-1], $A[0]", "np.clip($A, 0, 1, out=$A)", "$A.fill($f)",
-    "$A[np.argmax($A)] = $f",
+    "$A[np.argmax($A)] = $f", "for j, q in enumerate($A):\n    $A[j] = q * $f",
+    "def c$N(s):\n    s[$p] = $f\n    s[0] $o $f\nc$N($A)",
+    "def c$N(s, t):\n    if t > 1:\n        s[0] = t\n        return s\n    s[$p] $o t\n    return s\n$A = c$N($A, $f)",
+    "class C$N:\n    def __init__(self, s):\n        self.s = s\n    def c(self, t):\n        self.s[$p] $o t\n"
+    "C$N($A).c($f)",
 ]  # fmt: skip
 SHARING = ["{0}", "{0}[1:]", "{0}[::2]", "{0}.reshape(-1)", "{0}.copy()", "np.array({0})"]
+# What holds an array, and how it is called there.
+HOLDERS = {
+    "o{n} = S(K={a})": "o{n}.K", "o{n} = {{'p': {a}, 'q': {b}}}": "o{n}['p']", "o{n} = [{a}, {b}]": "o{n}[0]",
+    "o{n} = S(K=[{a}], L={{'p': {b}}})": "o{n}.L['p']",
+}  # fmt: skip
 FORMS = {
     "f": NUMBERS, "i": WHOLE, "b": CONDITIONS, "a": ARRAYS, "m": MATRICES, "s": SLICES, "p": PLACES,
     "o": ["=", "+=", "*="], "w": ["w", "v"],
@@ -114,7 +124,7 @@ class Writer:
     def lines(self) -> list[str]:
         made = [self.array(n) for n in range(2)]
         for n in range(2, self.random.randint(5, 9)):
-            made.append(self.one([self.statement, self.statement, self.array, self.change, self.shared])(n))
+            made.append(self.one([self.statement, self.statement, self.array, self.change, self.shared, self.held])(n))
         arrays = [f"{SCALE.format(name)}" for name in self.known["a"]]
         return [*made, *(f"y_{n} = {value} * 1.0" for n, value in enumerate([*self.known["f"], *arrays]))]
 
@@ -144,16 +154,25 @@ class Writer:
         self.known["f"] += [f"f{n}"] + [f"e{n}"] * ("$N2" in form)
         return line
 
-    def change(self, _: int) -> str:
+    def change(self, n: int) -> str:
         name = self.one(self.known["a"])
-        return f"{name} = {name} * 1.0\n" * self.one([0, 1]) + self.filled(self.one(CHANGES), A=name)
+        return f"{name} = {name} * 1.0\n" * self.one([0, 1]) + self.filled(self.one(CHANGES), A=name, N=str(n))
 
     def shared(self, n: int) -> str:
         """An array that may show elements of another one, of which one is changed."""
         name = self.one(self.known["a"])
         line = f"a{n} = {self.one(SHARING).format(name)}"
         self.known["a"].append(f"a{n}")
-        return f"{line}\n{self.filled(self.one(CHANGES), A=self.one([name, f'a{n}']))}"
+        return f"{line}\n{self.filled(self.one(CHANGES), A=self.one([name, f'a{n}']), N=str(n))}"
+
+    def held(self, n: int) -> str:
+        """An array that something holds, itself or a copy, and another one made of it."""
+        name, (line, held) = self.one(self.known["a"]), self.one([*HOLDERS.items()])
+        a, b = (self.one([*SHARING, "{0} * 1.0"]).format(self.one(self.known["a"])) for _ in range(2))
+        held = held.format(n=n)
+        change = self.filled(self.one(CHANGES), A=self.one([held, held, name]), N=str(n))
+        self.known["a"].append(f"a{n}")
+        return f"{line.format(n=n, a=a, b=b)}\n{change}\na{n} = {held} * 1.0"
 
 
 def sheet_of(folder: Path, lines: Sequence[str]) -> cells.Worksheet:

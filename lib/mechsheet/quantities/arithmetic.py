@@ -123,7 +123,7 @@ def cuts(x: Quantity) -> bool:
     """Whether an array of these numbers has whole ones alone, to which it cuts whatever is set in it."""
     if is_whole(x):
         return True
-    if _is_whole(x.re, x.graph.whole, any_way=True):
+    if _is_whole(x.re, x.graph.whole, any_way=True, of_lists=x.graph.of_lists):
         raise NotRecorded("an array of what is a whole number on one way and none on another cuts what is set in it")
     return False
 

@@ -88,7 +88,7 @@ class Graph(Lengths):
         self.refused = dict[Node, Node | None]()  # where Python has no error for one, see `refused`
         self.pythons = dict[Node, bool]()  # whether one is Python's own, which divides none by zero
         self.sliders = set[Node]()  # their places
-        self.whole, self.counted = set[Node](), set[Node]()  # ints to Python, floats; no decimals of them in a text
+        self.whole, self.counted, self.of_lists = set[Node](), set[Node](), set[Node]()  # ints, floats without decimals
         self.pivots = set[Node]()  # conditions that put the rows of linear equations in order, which may be unlike
         self.nodes: dict[Any, Node] = {}
         self.alike: dict[Any, list[tuple[float, Node]]] = {}  # exported, by what they rest on and shape

@@ -237,10 +237,16 @@ def is_number(node: Node, number: float) -> bool:
     return node.op == "constant" and not node.args and node.shape == () and bool(node.value == number)
 
 
-def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset(), any_way: bool = False) -> bool:
+def is_whole(
+    node: Node,
+    known: Set[Node],
+    counted: Set[Node] = frozenset(),
+    any_way: bool = False,
+    of_lists: Set[Node] = frozenset(),
+) -> bool:
     """Whether Python has a whole number there, where it has one at all; of some it is known, or they are as good.
 
-    With ``any_way`` if it has one on any way of a condition.
+    With ``any_way`` if it has one on any way of a condition, as each element of what is made ``of_lists`` may.
     """
     here = node.value
     if not any_way and here.dtype.kind == "f" and (np.floor(here) < here).any():  # as of most: none looks further
@@ -266,7 +272,8 @@ def is_whole(node: Node, known: Set[Node], counted: Set[Node] = frozenset(), any
             case "where" | "max" | "min":
                 ways = [way for way in part.operands if way.op not in LEAVES or not np.isnan(way.value).all()]
                 ways = ways[part.op == "where" :]
-                if not (any_way and part.shape == () and any(is_whole(way, known) for way in ways)):
+                each = part.shape == () or part in of_lists
+                if not (any_way and each and any(is_whole(way, known) for way in ways)):
                     waiting += ways
             case "add" | "sub" | "mul" | "neg" | "mod" | "abs":
                 waiting += part.args

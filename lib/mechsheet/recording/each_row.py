@@ -56,6 +56,13 @@ def listed(f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
 
 def of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
     """What ``f`` gives for each row in all, of a table or of those rows of one for which a condition holds."""
+    made = _of_rows(kind, f, plainly, *sources)
+    if kind == "array" and isinstance(made, Quantity):
+        made.graph.of_lists.update(made.parts)
+    return made
+
+
+def _of_rows(kind: str, f: FunctionType, plainly: Callable[..., Any], *sources: Any) -> Any:
     if kind in ("sum", "prod") and isinstance(sources[0], Turns) and not (sources[1:] or way_may_change(f)):
         return loops.over_all(kind, f, sources[0])
     every = [_unselected(source) for source in sources]

@@ -114,6 +114,8 @@ def _handing(lines: Sequence[ast.stmt], known: Mapping[str, _Changing], own: Set
             found.append(line)  # whose names are others
         elif new := _handed_back(line, known, own):
             found += (ast.fix_missing_locations(ast.copy_location(each, line)) for each in new)
+        elif new := _before(line, known):
+            found += _handing(new, known, own)
         else:
             line, names = deepcopy(line), source.local(line) if isinstance(line, ast.FunctionDef) else own
             for part in (line, *getattr(line, "handlers", ()), *getattr(line, "cases", ())):
@@ -157,6 +159,75 @@ def _handed_back(line: ast.stmt, known: Mapping[str, _Changing], own: Set[str] |
         sides = [ast.Tuple([ast.Name(pair[k], ast.Load()) for pair in pairs], ast.Load()) for k in (0, 1)]
         lines.append(ast.Assign(targets, call("of_caller", node, ast.Name(result, ast.Load()), *sides)))
     return [*lines, ast.Assign([_stored(*new, result)], ast.Tuple(nothing, ast.Load()))]
+
+
+def _before(line: ast.stmt, known: Mapping[str, _Changing]) -> list[ast.stmt]:
+    """A statement with a call of such a function within an expression as one with the call before it.
+
+    None of one where something else is computed before, or looks at the arrays.
+    """
+    if not isinstance(line, ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign | ast.Return | ast.If):
+        return []
+    value = line.test if isinstance(line, ast.If) else line.value or ast.Constant(None)
+    calls = [node for node in ast.walk(value) if isinstance(node, ast.Call) and _name_of(node.func) in known]
+    if len(calls) != 1 or not known[_name_of(calls[0].func)].surely:
+        return []
+    if calls[0] is value and isinstance(line, ast.Expr | ast.Assign):
+        return []
+    (node,), name = calls, f"_before {line.lineno}"
+    around = [part for part in ast.walk(value) if part is not node and any(each is node for each in ast.walk(part))]
+    if any(isinstance(part, _LATER) or (isinstance(part, ast.Compare) and len(part.ops) > 1) for part in around):
+        return []
+    earlier = [part for part in ast.walk(value) if isinstance(part, ast.expr) and _place(part) < _place(node)]
+    earlier += (
+        [part for part in ast.walk(line.target) if isinstance(part, ast.expr)]
+        if isinstance(line, ast.AugAssign)
+        else []
+    )
+    called = {id(part.func) for part in around if isinstance(part, ast.Call)}
+    arrays = {
+        *known[_name_of(node.func)].beside,
+        *map(_name_of, node.args),
+        *(_name_of(x.value) for x in node.keywords),
+    }
+    for part in earlier:
+        computed = isinstance(part, ast.Call) or (isinstance(part, ast.Attribute) and id(part) not in called)
+        if part not in around and (_name_of(part) in arrays - {""} or (computed and not _is_input(part))):
+            return []
+    rest: Any = _Put(node, name).visit(deepcopy(line))
+    lines = [ast.Assign([ast.Name(name, ast.Store())], node), rest]
+    if not isinstance(line, ast.Return | ast.If):
+        lines.append(ast.Assign([ast.Name(name, ast.Store())], ast.Constant(None)))
+    return [ast.fix_missing_locations(ast.copy_location(each, line)) for each in lines]
+
+
+# What computes its parts later, or not all of them.
+_LATER = ast.Lambda, ast.IfExp, ast.BoolOp, ast.NamedExpr, ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp
+
+
+def _is_input(part: ast.expr) -> bool:
+    return isinstance(part, ast.Attribute) and _name_of(part.value) == "g"
+
+
+def _name_of(part: ast.AST) -> str:
+    return part.id if isinstance(part, ast.Name) else ""
+
+
+def _place(part: ast.expr) -> tuple[int, int]:
+    return part.lineno, part.col_offset
+
+
+class _Put(ast.NodeTransformer):
+    """A name in the place of a call."""
+
+    def __init__(self, node: ast.Call, name: str) -> None:
+        self.place, self.name = (_place(node), node.end_lineno, node.end_col_offset), name
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        if (_place(node), node.end_lineno, node.end_col_offset) == self.place:
+            return ast.copy_location(ast.Name(self.name, ast.Load()), node)
+        self.generic_visit(node)
+        return node
 
 
 def _stored(*names: str) -> ast.Tuple:

@@ -202,11 +202,11 @@ class Run(Guarded, OfPositions):
         may_change = any(map(changes, codes))
         unseen = (under | {*touched}) & self.lost.keys() - self.names.keys() if may_change else set[str]()
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
-        holders = map(self.names.get, facts.within)
-        held = (x for x in holders if getattr(x, "ndim", 0) != 1)  # whose elements are numbers
+        held = (x for x in map(self.names.get, facts.within) if getattr(x, "ndim", 0) != 1)  # else of numbers
         others = Memory.sharing(self.names, [*arrays, *held]).difference(touched)
-        handed = map(self.names.get, under) if sets_of_others(*codes) else ()
-        reached = Memory.sharing(self.names, handed).difference(touched)  # which a function may change
+        handed = under if sets_of_others(*codes) else set[str]()
+        reached = Memory.sharing(self.names, map(self.names.get, handed)).difference(touched)  # a function may change
+        altered = facts.in_place | handed | reached  # names of arrays that may be others now
         differs: list[str] = []
         try:
             if others or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
@@ -243,7 +243,7 @@ class Run(Guarded, OfPositions):
             self.keep(stage, touched, final - of_later, reason, rests_on)
             changed_now = before.changed() | graph.meant.disturbed() | (before.mutable() if may_change else set())
             beside = before.named(self.names, changed_now)
-            beside = beside.union(*(names for names, _ in self.aliasing(changed_now, unseen)))
+            beside = beside.union(*(names for names, _ in self.aliasing(changed_now, altered, unseen)))
             if not self.to_change.isdisjoint(touched):  # it may be another name of what it reads, and changes later
                 reached = Memory.sharing(self.names, map(self.names.get, under))
             beside = (beside | others | reached).difference(touched)
@@ -256,8 +256,10 @@ class Run(Guarded, OfPositions):
         now = before.changed() | (before.mutable() if ways else set())
         now |= before.others(now)
         beside = before.named(self.names, now).difference(touched)
-        for stale, reason in self.aliasing(now):
+        for stale, reason in self.aliasing(now, altered, frozenset()):
             self.lose(stage, stale.difference(touched), later, reason)
+        for names, *_ in self.aliases:  # what is bound anew is another value
+            names -= {*touched} - facts.in_place - facts.former
         beside |= reached if graph.looked else set()
         known = {k: seen for k, seen in graph.looked.items() if not seen.lengths and (graph.refuses or not seen.why)}
         noted = {} if touched or beside else known
@@ -380,11 +382,14 @@ class Run(Guarded, OfPositions):
                 if self.to_change - {name}:  # which may be other names of it
                     self.looked[name] = self.while_are(self.recording.inputs.values())
 
-    def aliasing(self, changed: set[int], unseen: Set[str] = frozenset()) -> Iterator[tuple[set[str], NotRecorded]]:
+    def aliasing(self, ids: set[int], altered: Set[str], unseen: Set[str]) -> Iterator[tuple[set[str], NotRecorded]]:
         """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
-        for names, _, containers, reason in self.aliases if changed or unseen else ():
-            if not (containers.isdisjoint(changed) and names.isdisjoint(unseen)):
-                yield {name for name in names if Memory(self.values([name]), self.names).containers()}, reason
+        for names, _, containers, reason in self.aliases if ids or altered or unseen else ():
+            held = {name: Memory(self.values([name]), self.names) for name in names}
+            if not (containers.isdisjoint(ids) and names.isdisjoint(unseen)):
+                yield {name for name in names if held[name].containers()}, reason
+            if not names.isdisjoint(altered):
+                yield {name for name in names if held[name].arrays}, reason
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""

@@ -341,6 +341,8 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
             compared(*quantities(args))
         if f in _ARRAYS:
             array = _array(*args, **kwargs)
+            if isinstance(args[0], list | tuple):
+                current.get().of_lists.update(getattr(array, "parts", ()))
             return copy(array) if f is np.array and kwargs.get("copy", True) else array
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *value = args
