@@ -28,7 +28,7 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
-from mechsheet.quantities.quantity import FUNCTIONS, has_quantity, lift, quantities
+from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
 from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
 from mechsheet.quantities.text_column import chosen_among
@@ -341,8 +341,8 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
             compared(*quantities(args))
         if f in _ARRAYS:
             array = _array(*args, **kwargs)
-            if isinstance(args[0], list | tuple):
-                current.get().of_lists.update(getattr(array, "parts", ()))
+            if isinstance(args[0], list | tuple) and isinstance(array, Quantity):
+                array.graph.of_lists.update(array.parts)
             return copy(array) if f is np.array and kwargs.get("copy", True) else array
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *value = args
