@@ -78,7 +78,6 @@ def module(recording: Recording, wanted: Mapping[str, Node]) -> str:
 
 
 @cache
-@cache
 def runtime(*files: str) -> str:
     """Texts of files beside this one, without indents, empty lines, and comments that begin with //."""
     texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in files]

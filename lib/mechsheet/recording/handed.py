@@ -179,11 +179,8 @@ def _before(line: ast.stmt, known: Mapping[str, _Changing]) -> list[ast.stmt]:
     if any(isinstance(part, _LATER) or (isinstance(part, ast.Compare) and len(part.ops) > 1) for part in around):
         return []
     earlier = [part for part in ast.walk(value) if isinstance(part, ast.expr) and _place(part) < _place(node)]
-    earlier += (
-        [part for part in ast.walk(line.target) if isinstance(part, ast.expr)]
-        if isinstance(line, ast.AugAssign)
-        else []
-    )
+    if isinstance(line, ast.AugAssign):
+        earlier += (part for part in ast.walk(line.target) if isinstance(part, ast.expr))
     called = {id(part.func) for part in around if isinstance(part, ast.Call)}
     arrays = {
         *known[_name_of(node.func)].beside,
@@ -268,7 +265,8 @@ class _Returning(ast.NodeTransformer):
         self.changed = changed
 
     def visit_Return(self, node: ast.Return) -> ast.Return:
-        back = [ast.Call(ast.Name("recorded back", ast.Load()), [ast.Name(x, ast.Load())], []) for x in self.changed]
+        changed = (ast.List([ast.Name(x, ast.Load())], ast.Load()) for x in self.changed)
+        back = [ast.Call(ast.Name("recorded back", ast.Load()), [each], []) for each in changed]
         node.value = ast.Tuple([*back, node.value or ast.Constant(None)], ast.Load())
         return node
 
@@ -291,20 +289,12 @@ def handed(array: Any, function: FunctionType, *others: Any) -> Any:
     return array.copy()
 
 
-def back(array: Any) -> Any:
-    """An array that a function has changed, and of which it has told nobody; an element that is not set else."""
-    if not _is_array(array):
+def back(values: list[Any]) -> Any:
+    """The one array that a function has changed, and of which it has told nobody; an element that is not set else."""
+    if not _is_array(values[0]):
         return NOT_SET
-    if getrefcount(array) > _ALONE:
-        raise NotRecorded(OTHER_NAME)
-    return array
-
-
-def _counted(array: Any) -> int:
-    return getrefcount(array)
-
-
-_ALONE = (lambda array: _counted(array))(np.zeros(1))  # of one with one name, where it is handed
+    unshared(values)
+    return values[0]
 
 
 def unshared(values: list[Any]) -> None:

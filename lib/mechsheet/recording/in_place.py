@@ -215,34 +215,32 @@ _KEEPING: tuple[Any, ...] = object.__setattr__, type.__setattr__, SimpleNamespac
 _HOLDING: tuple[Any, ...] = list.__setitem__, dict.__setitem__
 
 
-def put_held(value: Any, holder: Any, name: str, key: Any, operation: str = "") -> None:
-    """``holder.name[key] = value``, or ``+=`` or another such ``operation``."""
-    array = getattr(holder, name)
+def put_held(value: Any, holder: Any, place: Any, key: Any, by_name: bool, operation: str = "") -> None:
+    """``holder.place[key] = value``, or ``holder[place][key]``; or ``+=`` or another such ``operation``."""
+    array = getattr(holder, place) if by_name else element(holder, place)
     value = changed(element(array, key), operation, value) if operation else value
-    if isinstance(holder, np.ndarray | Quantity):  # of which it is a part
+    if not _is_held(holder, place, by_name):
         array[key] = value
         return
     new = put(array, key, value)
     if new is not array:
-        if type(holder).__setattr__ not in _KEEPING or isinstance(getattr(type(holder), name, None), property):
-            raise NotRecorded(f"an array of an object that sees to it itself when {name} is set")
+        if by_name and (type(holder).__setattr__ not in _KEEPING or _is_property(holder, place)):
+            raise NotRecorded(f"an array of an object that sees to it itself when {place} is set")
         del array, value  # of which it may be a part
-        setattr(holder, name, new)
+        setattr(holder, place, new) if by_name else operator.setitem(holder, place, new)
         settled(new)
 
 
-def put_within(value: Any, holder: Any, place: Any, key: Any, operation: str = "") -> None:
-    """``holder[place][key] = value``, or ``+=`` or another such ``operation``."""
-    array = element(holder, place)
-    value = changed(element(array, key), operation, value) if operation else value
-    if getattr(type(holder), "__setitem__", None) not in _HOLDING or isinstance(place, Quantity | Written | slice):
-        array[key] = value
-        return
-    new = put(array, key, value)
-    if new is not array:
-        del array, value
-        holder[place] = new
-        settled(new)
+def _is_held(holder: Any, place: Any, by_name: bool) -> bool:
+    """Whether another array may be put in the place of one, which is no part of an array itself."""
+    if by_name:
+        return not isinstance(holder, np.ndarray | Quantity)
+    kept = getattr(type(holder), "__setitem__", None) in _HOLDING
+    return kept and not isinstance(place, Quantity | Written | slice)
+
+
+def _is_property(holder: Any, name: str) -> bool:
+    return isinstance(getattr(type(holder), name, None), property)
 
 
 def changed_held(value: Any, holder: Any, name: str, operation: str) -> None:
@@ -322,6 +320,5 @@ CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
     "live": live, "put_held": put_held, "changed_held": changed_held,
-    "put_within": put_within,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

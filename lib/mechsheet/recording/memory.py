@@ -39,7 +39,7 @@ _METHODS = {  # which change what they are called of, in the middle of an expres
     "discard", "clear", "__setitem__",
 }  # fmt: skip
 _SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
-_SETTING_HELD = {f"recorded {change}" for change in ("put_held", "put_within", "changed_held")}
+_SETTING_HELD = {f"recorded {change}" for change in ("put_held", "changed_held")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (
     int, float, complex, str, bytes, np.generic, np.ufunc, ModuleType, range, type(None), GetSetDescriptorType,

@@ -82,7 +82,7 @@ def put_held(node: ast.Assign) -> ast.stmt:
     """An element that is set of an array which an object holds, or a dictionary or a list."""
     match node.targets:
         case [ast.Subscript(array, key)] if found := _holder(array):
-            return _changing(node, *found, node.value, index(key))
+            return _set(node, key, *found)
     return node
 
 
@@ -91,24 +91,27 @@ def added_held(node: ast.AugAssign) -> ast.stmt:
     operation = ast.Constant(OPERATIONS[type(node.op)])
     match node.target:
         case ast.Subscript(array, key) if found := _holder(array):
-            return _changing(node, *found, node.value, index(key), operation)
+            return _set(node, key, *found, operation)
         case ast.Attribute(of, name):
-            return _changing(node, "changed_held", of, ast.Constant(name), node.value, operation)
+            changed = call("changed_held", node, node.value, of, ast.Constant(name), operation)
+            return ast.copy_location(ast.Expr(changed), node)
     return node
 
 
-def _holder(array: ast.expr) -> tuple[str, ast.expr, ast.expr] | None:
-    """What holds an array, and where: with the call that sets an element of the array."""
+def _holder(array: ast.expr) -> tuple[ast.expr, ast.expr, bool] | None:
+    """What holds an array, where, and whether by a name."""
     match array:
         case ast.Attribute(of, name):
-            return "put_held", of, ast.Constant(name)
+            return of, ast.Constant(name), True
         case ast.Subscript(of, place):
-            return "put_within", of, index(place)
+            return of, index(place), False
         case ast.Call(ast.Name("recorded element"), [of, place]):
-            return "put_within", of, place
+            return of, place, False
     return None
 
 
-def _changing(node: ast.stmt, change: str, of: ast.expr, place: ast.expr, *how: ast.expr) -> ast.stmt:
-    value, *more = how
-    return ast.copy_location(ast.Expr(call(change, node, value, of, place, *more)), node)
+def _set(
+    node: ast.Assign | ast.AugAssign, key: ast.expr, of: ast.expr, place: ast.expr, by_name: bool, *operation: ast.expr
+) -> ast.stmt:
+    changed = call("put_held", node, node.value, of, place, index(key), ast.Constant(by_name), *operation)
+    return ast.copy_location(ast.Expr(changed), node)

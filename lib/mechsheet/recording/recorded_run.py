@@ -385,11 +385,10 @@ class Run(Guarded, OfPositions):
     def aliasing(self, ids: set[int], altered: Set[str], unseen: Set[str]) -> Iterator[tuple[set[str], NotRecorded]]:
         """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
         for names, _, containers, reason in self.aliases if ids or altered or unseen else ():
-            held = {name: Memory(self.values([name]), self.names) for name in names}
             if not (containers.isdisjoint(ids) and names.isdisjoint(unseen)):
-                yield {name for name in names if held[name].containers()}, reason
+                yield {name for name in names if Memory(self.values([name]), self.names).containers()}, reason
             if not names.isdisjoint(altered):
-                yield {name for name in names if held[name].arrays}, reason
+                yield {name for name in names if Memory(self.values([name]), self.names).arrays}, reason
 
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
