@@ -15,11 +15,15 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mechsheet.mechanics.memory import keep_freed
+
 Complex = NDArray[np.complex128]
 Float = NDArray[np.float64]
 _REAL: frozenset[type] = frozenset({int, float, np.float64})
 _COMPLEX = _REAL | {complex, np.complex128}
 _LARGE = 1e300
+
+keep_freed()  # every function of arrays takes its arguments from here
 
 P = ParamSpec("P")
 R = TypeVar("R")

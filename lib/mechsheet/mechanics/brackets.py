@@ -130,7 +130,7 @@ def _narrowed(g: Function, x: Array, r: Array, new: Array, active: Mask) -> tupl
     x_all, r_all = np.concatenate([x[:1], new, x[1:2]]), np.concatenate([r[:1], g(new), r[1:2]])
     side = np.sign(r_all)
     k = (side[1:] != side[:-1]).argmax(0)
-    rows = np.stack([k, k + 1, np.where(k > 0, k - 1, k + 2)])
+    rows = np.array([k, k + 1, np.where(k > 0, k - 1, k + 2)])
     return np.where(active, taken(x_all, rows), x), np.where(active, taken(r_all, rows), r)
 
 
@@ -138,9 +138,15 @@ def ulp(x: Array, floor: Array) -> Array:
     return EPS * np.abs(x) + floor
 
 
+def true(mask: Mask) -> tuple[Index, Index]:
+    """Row and column of the true elements; numpy's nonzero, many times as fast where they are few."""
+    row, column = np.divmod(mask.ravel().nonzero()[0], mask.shape[1])
+    return row, column
+
+
 def slots(mask: Mask) -> tuple[Index, Mask]:
     """Rows of the true elements of each column, shape (K, p), and which of these slots are filled."""
-    row, column = mask.nonzero()
+    row, column = true(mask)
     count = np.bincount(column, minlength=mask.shape[1])
     order = column.argsort(kind="stable")
     place = np.arange(len(order)) - np.repeat(count.cumsum() - count, count)

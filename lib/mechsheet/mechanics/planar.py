@@ -71,8 +71,9 @@ def product(p: ArrayLike, q: ArrayLike, z: ArrayLike) -> Complex:
     np.complex128(1+7j)
     """
     p, q, z = reals(p, "p"), reals(q, "q"), vector(z, "z")
-    found = np.asanyarray(p * z.real - q * z.imag, np.complex128)
-    found.imag = p * z.imag + q * z.real
+    x, y = z.real.copy(), z.imag.copy()  # of an array every other number: each pass over them takes twice the time
+    found = np.asanyarray(p * x - q * y, np.complex128)
+    found.imag = p * y + q * x
     return found[()]
 
 

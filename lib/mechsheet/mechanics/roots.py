@@ -26,6 +26,7 @@ from mechsheet.mechanics.brackets import (
     last_finite,
     picked,
     slots,
+    true,
     ulp,
 )
 
@@ -91,7 +92,7 @@ class Roots:
     interval: Array
     jump: Array
     void: Mask
-    samples: Index
+    samples: NDArray[np.integer]
     pieces: "_Pieces"
     f: Counted
 
@@ -129,7 +130,7 @@ class _Pieces(NamedTuple):
     level: Mask
     equals: Array
     floor: Array
-    samples: Index
+    samples: NDArray[np.integer]
 
 
 @np.errstate(all="ignore")
@@ -195,10 +196,10 @@ def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     y = f(x)
     if np.isnan(y).any():
         x, y = _with_edges(f, x, y)
-    samples = 1 + np.count_nonzero(x[1:] != x[:-1], axis=0)
+    samples = 1 + (x[1:] != x[:-1]).sum(0, dtype=np.int32)
     r = y - equals
     turn = _turning(y)
-    row, column = turn.nonzero()
+    row, column = true(turn)
     own, beside = y[row, column], y[[row - 1, row + 1], column]
     rise = np.abs(own - beside).max(0)
     passed = np.where(own > beside[1], 1, -1) * r[row, column]
@@ -211,7 +212,7 @@ def _pieces(f: Counted, lo: Array, hi: Array, equals: Array) -> _Pieces:
     cross = (below[:-1] & above[1:]) | (above[:-1] & below[1:])
     inner = touch & ~end
     cross &= ~(inner[:-1] | inner[1:])  # beside a touching root the sign is rounding
-    level = np.fmax.reduce(np.abs(r)) <= _LEVEL * np.spacing(np.abs(equals))
+    level = _level(r, equals)
     if level.any():
         level &= np.count_nonzero(~np.isnan(y), axis=0) > 2
         touch, cross = touch & ~level, cross & ~level
@@ -273,6 +274,14 @@ def _turning(y: Array) -> Mask:
     return turn
 
 
+def _level(r: Array, equals: Array) -> Mask:
+    """Where f is the target everywhere, but for NaN."""
+    least = _LEVEL * np.spacing(np.abs(equals))
+    if (np.abs(r[:: len(r) - 1]) > least).any(0).all():  # as nearly always, and both ends tell
+        return np.zeros(least.shape, dtype=bool)
+    return np.asarray(np.fmax.reduce(np.abs(r)) <= least)
+
+
 def _with_turns(f: Counted, x: Array, y: Array, turn: Mask, floor: Array) -> tuple[Array, Array, Mask]:
     """The samples with each of these local extremes of f in place of the sample beside it, and where they are."""
     i, valid = slots(turn)
@@ -292,7 +301,7 @@ def _touching(f: Counted, x: Array, y: Array, r: Array, equals: Array, turn: Mas
     out = np.ones((len(y) + 2, y.shape[1]), dtype=bool)
     out[1:-1] = np.isnan(y)
     end = (out[:-2] | out[2:]) & ~out[1:-1]
-    row, column = end.nonzero()
+    row, column = true(end)
     next_ = np.where(out[row, column], row + 1, row - 1) % len(y)
     own, target = y[row, column], equals[column]
     unit = np.spacing(np.maximum(np.abs(own), np.abs(target)))
@@ -325,15 +334,16 @@ def _crossing(f: Counted, pieces: _Pieces, i: Index, valid: Mask) -> tuple[Array
     def g(u: Array) -> Array:
         return f(u) - equals
 
-    lower = np.abs(picked(r, i)) < np.abs(picked(r, np.minimum(i + 1, len(x) - 1)))
-    third = np.clip(np.where(lower, i - 1, i + 2), 0, len(x) - 1)
-    rows = np.stack([i, np.minimum(i + 1, len(x) - 1), third])
+    last = len(x) - 1
+    lower = np.abs(picked(r, i)) < np.abs(picked(r, np.minimum(i + 1, last)))
+    third = np.where(lower, np.maximum(i - 1, 0), np.minimum(i + 2, last))
+    rows = np.array([i, np.minimum(i + 1, last), third])
     ends, r_ends = bracketed(g, picked(x, rows), picked(r, rows), valid, floor)
     best = np.abs(r_ends[1]) < np.abs(r_ends[0])
     root, off = np.where(best, ends[1], ends[0]), np.where(best, r_ends[1], r_ends[0])
     ends, r_ends = np.where(off == 0, root, ends), np.where(off == 0, 0, r_ends)
 
-    room = np.stack([ends[0] - x[0], x[-1] - ends[1]])[:, None]
+    room = np.array([ends[0] - x[0], x[-1] - ends[1]])[:, None]
     beside = np.minimum(_BESIDE * ulp(root, floor), room)
     r_beside = g(ends[:, None] + _SIDES * beside)
     away = np.fmax.reduce(np.abs(r_beside[:, 2]), axis=0)
@@ -347,7 +357,7 @@ def _crossing(f: Counted, pieces: _Pieces, i: Index, valid: Mask) -> tuple[Array
         extent = np.fmax.reduce(pieces.y) - np.fmin.reduce(pieces.y)
         explained |= (rise <= _EXPLAINED * (width * slope + rounding)) & (rise <= _ROUNDING * extent)
     sound = explained & (np.abs(off) <= 4 * away + 4 * unit)
-    roots = np.where(valid & sound, np.stack([root, off, *ends]), np.nan)
+    roots = np.where(valid & sound, np.array([root, off, *ends]), np.nan)
     return roots, np.fmin.reduce(np.where(valid & ~sound, root, np.nan), axis=0, initial=np.nan)
 
 

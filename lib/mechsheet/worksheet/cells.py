@@ -242,6 +242,7 @@ def base(want: str) -> str:
     return split(want)[0]
 
 
+@lru_cache(maxsize=1024)
 def split(want: str) -> tuple[str, str]:
     """Name of a wanted result, and its part: ``real``, ``imag``, ``abs`` or none.
 
