@@ -9,6 +9,7 @@ from own_worksheet import own
 from mechsheet.document.expression import equation, left
 from mechsheet.document.left_out import left_out
 from mechsheet.html import write
+from mechsheet.worksheet.cells import load
 from mechsheet.worksheet.errors import SheetError
 from mechsheet.worksheet.lines import Formula, formulas
 from mechsheet.worksheet.source import of_texts
@@ -111,3 +112,23 @@ def test_the_page_shows_what_it_is(tmp_path: Path) -> None:
     sheet = own(tmp_path, "z = np.zeros(3)  # [m] lengths\nz[0] = g.F")
     (line,) = re.findall('id="line-z".*?lengths', write.page(sheet, sheet.inputs()))
     assert "zeros" not in line and "2.5, 0, 0" in line
+
+
+CHANGE = "def change(s, by):\n        s[0] = by\n        return s[1]\n"
+READING = "from mechsheet import ask, find, read, inputs\n"
+BEFORE = "\n@app.cell\ndef given():\n"
+OF_A_CELL = f"\n@app.cell\ndef changing():\n    {CHANGE}    return (change,)\n"
+
+
+@pytest.mark.parametrize(("old", "new"), [(READING, f"{READING}\n    {CHANGE}"), (BEFORE, OF_A_CELL + BEFORE)])
+def test_functions_of_the_setup_and_of_other_cells_change_what_they_are_handed(
+    tmp_path: Path, old: str, new: str
+) -> None:
+    """There stood z = zeros(3) = 2.5, 0, 0: only those of its own cell were looked at."""
+    own(tmp_path, "z = np.zeros(3)  # [m] lengths\nw = change(z, g.F)  # [m] w\nq = np.ones(3)  # [m] ones")
+    file = tmp_path / "own.py"
+    text = file.read_text(encoding="utf-8").replace(old, new)
+    file.write_text(text.replace("def lines(g):", "def lines(change, g):") if old == BEFORE else text, encoding="utf-8")
+    shown = write.page(sheet := load(file), sheet.inputs())
+    assert "zeros" not in re.findall('id="line-z".*?lengths', shown)[0]
+    assert "ones" in re.findall('id="line-q".*?</math>', shown)[0], "who is not changed keeps his formula"

@@ -86,10 +86,10 @@ def left_out(cells: Iterable[source.Cell], names: Mapping[str, Any]) -> Iterator
 def _of_others(cells: Sequence[source.Cell]) -> Iterator[LeftOut]:
     """What cells change in place that others give: it is another one each time that they run once more."""
     gives = [{name for line in cell.body for name in bound(line)} for cell in cells]
-    functions = {line.name: line for cell in cells for line in cell.body if isinstance(line, ast.FunctionDef)}
+    functions = [line for cell in cells for line in cell.body if isinstance(line, ast.FunctionDef)]
     for n, cell in enumerate(cells):
         others = set[str]().union(*gives[:n], *gives[n + 1 :]) - gives[n]
-        for name, places in changed(cell.body, functions).items():
+        for name, places in changed(cell.body, functions, by_others=False).items():
             if name in others and not name.startswith("_"):
                 why = f"{name} is changed in place, and another cell gives it: once more whenever this one runs again"
                 remedy = f"change a copy, as {name}_2 = {name}.copy(), or do so there"

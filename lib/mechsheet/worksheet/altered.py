@@ -3,6 +3,7 @@
 import ast
 import builtins
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from itertools import chain
 
 from mechsheet.worksheet import source
@@ -61,15 +62,17 @@ def held_by(node: ast.AST) -> Iterator[ast.Name]:
             yield from chain.from_iterable(map(held_by, elts))
 
 
-def changed(body: Sequence[ast.stmt], functions: Mapping[str, ast.FunctionDef] | None = None) -> dict[str, list[int]]:
+def changed(
+    body: Sequence[ast.stmt], functions: Iterable[ast.FunctionDef] = (), by_others: bool = True
+) -> dict[str, list[int]]:
     """By the names of values, the numbers of the statements of a cell that change these in place.
 
-    Where all ``functions`` are known, beside its own, nothing is taken to be changed by others.
+    Its own functions do, and the others that are known; and what is called for nothing, ``by_others``.
     """
-    own = {line.name: line for line in body if isinstance(line, ast.FunctionDef)}
+    own = {line.name: line for line in (*functions, *body) if isinstance(line, ast.FunctionDef)}
     found, same = dict[str, list[int]](), dict[str, set[str]]()
     for n, line in enumerate(body):
-        for name in _by_all_names(_changed(line, {**(functions or {}), **own}, functions is None), same):
+        for name in _by_all_names(_changed(line, own, by_others), same):
             found.setdefault(name, []).append(n)
         for name in source.bound(line):
             same.pop(name, None)
@@ -77,6 +80,13 @@ def changed(body: Sequence[ast.stmt], functions: Mapping[str, ast.FunctionDef] |
             case ast.Assign([ast.Name(name)], value) | ast.AnnAssign(ast.Name(name), value=ast.expr() as value):
                 same[name] = {*_shown_by(value)} - {name}
     return found
+
+
+@lru_cache(maxsize=32)
+def changing(functions: tuple[ast.FunctionDef, ...]) -> tuple[ast.FunctionDef, ...]:
+    """Those of some functions that change what they are handed."""
+    every = {function.name: function for function in functions}
+    return tuple(each for each in every.values() if not _inside(each, every).isdisjoint(_arguments(each)))
 
 
 def _by_all_names(names: set[str], same: Mapping[str, set[str]]) -> set[str]:
@@ -129,11 +139,19 @@ def _changed(line: ast.stmt, functions: Mapping[str, ast.FunctionDef], by_others
 
 def _handed(node: ast.Call, function: ast.FunctionDef, functions: Mapping[str, ast.FunctionDef]) -> list[ast.expr]:
     """What a call hands to a function that changes it."""
-    others = {name: each for name, each in functions.items() if each is not function}
-    inside = {name for line in function.body for name in _changed(line, others, by_others=False)}
-    names = [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
+    inside, names = _inside(function, functions), _arguments(function)
     given = [*zip(names, node.args, strict=False), *((each.arg, each.value) for each in node.keywords)]
     return [value for name, value in given if name in inside]
+
+
+def _inside(function: ast.FunctionDef, functions: Mapping[str, ast.FunctionDef]) -> set[str]:
+    """Names in a function of what it changes."""
+    others = {name: each for name, each in functions.items() if each is not function}
+    return {name for line in function.body for name in _changed(line, others, by_others=False)}
+
+
+def _arguments(function: ast.FunctionDef) -> list[str]:
+    return [each.arg for each in (*function.args.posonlyargs, *function.args.args)]
 
 
 def _is_of_numpy(of: ast.expr, name: str) -> bool:

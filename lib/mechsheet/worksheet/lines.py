@@ -104,9 +104,12 @@ def _read(unit: str) -> tuple[str, str]:
 
 
 @lru_cache(maxsize=1000)
-def formulas(cell: source.Cell) -> tuple[Formula | Given, ...]:
-    """Lines of a cell that end in a unit, and the equations of its solve blocks, in their order."""
-    return tuple(_formulas(cell))
+def formulas(cell: source.Cell, changing: tuple[ast.FunctionDef, ...] = ()) -> tuple[Formula | Given, ...]:
+    """Lines of a cell that end in a unit, and the equations of its solve blocks, in their order.
+
+    What the functions of other cells change is known of those that are ``changing`` what they are handed.
+    """
+    return tuple(_formulas(cell, changing))
 
 
 _OR = " or "  # between the meanings of a choice
@@ -114,10 +117,10 @@ _FOUND = "_found"  # ends the name of what solves for the unknown whose name sta
 _OF_ONE = ("lo", "hi", "guess")  # arguments of a block with one unknown
 
 
-def _formulas(cell: source.Cell) -> Iterator[Formula | Given]:
+def _formulas(cell: source.Cell, changing: tuple[ast.FunctionDef, ...]) -> Iterator[Formula | Given]:
     known, earlier = branches(cell.body), dict[str, Declared]()
     binding = dict[str, list[int]]()  # statements by the names that they bind
-    altering = changed(cell.body)
+    altering = changed(cell.body, changing)
     for k, node in enumerate(cell.body):
         for name in bound(node):
             binding.setdefault(name, []).append(k)

@@ -71,6 +71,13 @@ def of_file(namespace: Mapping[str, Any]) -> tuple[Cell, ...]:
     return _in_file(path, os.stat(path).st_mtime_ns) if path else ()
 
 
+def own_functions(namespace: Mapping[str, Any]) -> tuple[ast.FunctionDef, ...]:
+    """Functions that the worksheet which runs in a namespace defines in its cells, and in its file beside these."""
+    own = (line for cell in cells(namespace) for line in cell.body if isinstance(line, ast.FunctionDef))
+    path = namespace.get("__file__")
+    return (*own, *(_beside_cells(path, os.stat(path).st_mtime_ns) if path else ()))
+
+
 @lru_cache(maxsize=32)
 def of_texts(texts: shown.Texts) -> tuple[Cell, ...]:
     """Cells that are texts of their own."""
@@ -87,6 +94,14 @@ def _alone(text: str, filename: str) -> Cell:
 def _in_file(path: str, _changed: int) -> tuple[Cell, ...]:
     tree, comments = parsed(Path(path).read_text(encoding="utf-8"), path)
     return tuple(Cell(tuple(node.body), comments, path) for node in functions(tree))
+
+
+@lru_cache(maxsize=32)
+def _beside_cells(path: str, _changed: int) -> tuple[ast.FunctionDef, ...]:
+    tree, _ = parsed(Path(path).read_text(encoding="utf-8"), path)
+    whole = [line for node in tree.body for line in (node.body if isinstance(node, ast.With) else [node])]
+    apart = {*functions(tree)}
+    return tuple(line for line in whole if isinstance(line, ast.FunctionDef) and line not in apart)
 
 
 def functions(tree: ast.Module) -> Iterator[ast.FunctionDef]:

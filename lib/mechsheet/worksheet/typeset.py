@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.worksheet import source
+from mechsheet.worksheet import altered, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.lines import Formula, Given, displayed, formulas, names_read, registry
 from mechsheet.worksheet.numbers import existing
@@ -35,8 +35,9 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
     """
     frame = sys._getframe(1)
     cell, here = source.cell(frame), frame.f_lineno
+    changing = () if asks_values_only() else altered.changing(source.own_functions(frame.f_globals))
     try:
-        lines, between = _above(cell, here)
+        lines, between = _above(cell, here, changing)
     except SheetError as error:
         refuse(error)
     rows = [displayed(row, display) if display and isinstance(row, Formula) else row for row in lines]
@@ -63,10 +64,12 @@ def typeset(*shown: Any, display: Mapping[str, str] | None = None) -> "Typeset":
 
 
 @lru_cache(maxsize=1000)
-def _above(cell: source.Cell, here: int) -> tuple[tuple[Formula | Given, ...], tuple[ast.Constant, ...]]:
+def _above(
+    cell: source.Cell, here: int, changing: tuple[ast.FunctionDef, ...]
+) -> tuple[tuple[Formula | Given, ...], tuple[ast.Constant, ...]]:
     """Lines and texts of a cell above a line, behind the typeset above that; SheetError of one that is not right."""
     above = max((end for end in typeset_lines(cell) if end < here), default=0)
-    lines = tuple(row for row in formulas(cell) if above < row.expression.lineno < here)
+    lines = tuple(row for row in formulas(cell, changing) if above < row.expression.lineno < here)
     return lines, tuple(text for text in source.standing(cell.body) if above < text.lineno < here)
 
 
