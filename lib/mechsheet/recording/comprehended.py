@@ -7,7 +7,9 @@ import ast
 from collections.abc import Sequence, Set
 from copy import deepcopy
 from functools import lru_cache
+from typing import Any
 
+from mechsheet.recording.changed_rows import through_rows
 from mechsheet.recording.forms import SCOPED, appended, call, changed_in_place, later, taking
 from mechsheet.recording.handed import given_back
 from mechsheet.recording.ways import only_bind
@@ -21,15 +23,21 @@ class Comprehended(ast.NodeTransformer):
     Lists that loops of functions fill too.
     """
 
+    within: ast.FunctionDef | None = None
+
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        outside, self.within = self.within, node
         self.generic_visit(node)
+        self.within = outside
         node.body = kept_in_loops(node.body)
         return node
 
-    def visit_For(self, node: ast.For) -> ast.AST:
-        self.generic_visit(node)
+    def visit_For(self, node: ast.For) -> Any:
         if not any(isinstance(part, ast.Break) for part in ast.walk(node)):
             node.body = unskipped(node.body)
+        if rows := through_rows(node, self.within):
+            return [self.visit(line) for line in rows]
+        self.generic_visit(node)
         node.iter = _live(node.iter, set[str]().union(*changed_in_place(node.body)))
         return node
 

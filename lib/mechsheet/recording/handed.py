@@ -9,16 +9,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence, Set
 from copy import deepcopy
 from functools import lru_cache
-from sys import getrefcount
 from types import FunctionType
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from mechsheet.quantities.graph import NotRecorded
-from mechsheet.quantities.quantity import Quantity, owner
+from mechsheet.quantities.quantity import owner
+from mechsheet.recording.changed_rows import rows_changed
 from mechsheet.recording.forms import call, changed_in_place
-from mechsheet.recording.in_place import NOT_SET, OTHER_NAME
+from mechsheet.recording.in_place import NOT_SET, OTHER_NAME, is_array, unshared
 from mechsheet.recording.memory import Memory, either_of
 from mechsheet.recording.own_arrays import ARRAYS, is_new
 from mechsheet.recording.ways import read_later
@@ -97,6 +95,8 @@ def _as_changing(function: ast.FunctionDef, known: Mapping[str, _Changing], arra
     if not all(isinstance(value, ast.Constant) for value in defaults):  # it would have another one as its own
         return _Changing(new, (), False)
     changed, added = changed_in_place(new.body)
+    bound = {part.id for part in parts if isinstance(part, ast.Name) and not isinstance(part.ctx, ast.Load)}
+    changed |= {of.id for part in parts if isinstance(part, ast.For) for _, of in rows_changed(part)} - bound
     names = [each.arg for each in (*given.posonlyargs, *given.args)]
     later = read_later(function)
     beside = tuple(sorted((changed & arrays) - source.local(function) - later))
@@ -274,13 +274,9 @@ class _Returning(ast.NodeTransformer):
 # --- what the calls do -----------------------------------------------------------------------------------------------
 
 
-def _is_array(value: Any) -> bool:
-    return isinstance(value, np.ndarray | Quantity) and value.ndim > 0
-
-
 def handed(array: Any, function: FunctionType, *others: Any) -> Any:
     """A copy of an array, in its place in a function that nothing else hands it to; what is none itself."""
-    if not _is_array(array):
+    if not is_array(array):
         return array
     memory = Memory([function, *others], function.__globals__)
     memory.follow()
@@ -291,28 +287,15 @@ def handed(array: Any, function: FunctionType, *others: Any) -> Any:
 
 def back(values: list[Any]) -> Any:
     """The one array that a function has changed, and of which it has told nobody; an element that is not set else."""
-    if not _is_array(values[0]):
+    if not is_array(values[0]):
         return NOT_SET
     unshared(values)
     return values[0]
 
 
-def unshared(values: list[Any]) -> None:
-    """NotRecorded where somebody knows one of some arrays beside the function that changes copies of them."""
-    if any(_is_array(value) and getrefcount(value) > _IN_LIST for value in values):
-        raise NotRecorded(OTHER_NAME)
-
-
 def copied(value: Any) -> Any:
     """A copy of an array; what is none itself."""
-    return value.copy() if _is_array(value) else value
-
-
-def _most(values: list[Any]) -> int:
-    return max(getrefcount(value) for value in values)
-
-
-_IN_LIST = (lambda array: _most([array]))(np.zeros(1))  # of one with one name, in a list
+    return value.copy() if is_array(value) else value
 
 
 def of_caller(result: Any, new: tuple[Any, ...], arrays: tuple[Any, ...]) -> Any:

@@ -296,6 +296,23 @@ def _by_one_name() -> int:
 _BY_ONE = _by_one_name()
 
 
+def is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray | Quantity) and value.ndim > 0
+
+
+def unshared(values: list[Any]) -> None:
+    """NotRecorded where somebody knows one of some arrays beside who changes copies of them under a name."""
+    if any(is_array(value) and getrefcount(value) > _IN_LIST for value in values):
+        raise NotRecorded(OTHER_NAME)
+
+
+def _most(values: list[Any]) -> int:
+    return max(getrefcount(value) for value in values)
+
+
+_IN_LIST = (lambda array: _most([array]))(np.zeros(1))  # of one with one name, in a list
+
+
 def settled(new: Any) -> None:
     """End the change of an array for which another one has been put: nobody else may know the old one."""
     if isinstance(new, Quantity):

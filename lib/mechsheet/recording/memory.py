@@ -38,7 +38,9 @@ _METHODS = {  # which change what they are called of, in the middle of an expres
     "append", "appendleft", "extend", "insert", "pop", "popleft", "popitem", "setdefault", "update", "remove",
     "discard", "clear", "__setitem__",
 }  # fmt: skip
-_SETTING = {f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside")}
+_SETTING = {
+    f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside", "put_back")
+}
 _SETTING_HELD = {f"recorded {change}" for change in ("put_held", "changed_held")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
 _LEAVES = (

@@ -30,6 +30,7 @@ from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others
 from mechsheet.recording.named import in_words
 from mechsheet.recording.own_values import held, is_array, is_number, may_be_kept
 from mechsheet.recording.positions import OfPositions
+from mechsheet.recording.shows import under_others
 from mechsheet.recording.sifted import in_one
 from mechsheet.recording.stage import Stage
 from mechsheet.recording.substitutes import Module, instead, shared, staged
@@ -204,7 +205,7 @@ class Run(Guarded, OfPositions):
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         held = (x for x in map(self.names.get, facts.within) if getattr(x, "ndim", 0) != 1)  # else of numbers
         others = Memory.sharing(self.names, [*arrays, *held]).difference(touched)
-        handed = under if sets_of_others(*codes) else set[str]()
+        handed = under if sets_of_others(*codes) else under_others(facts.shows, self.names, under)
         reached = Memory.sharing(self.names, map(self.names.get, handed)).difference(touched)  # a function may change
         altered = facts.in_place | handed | reached  # names of arrays that may be others now
         differs: list[str] = []

@@ -14,6 +14,7 @@ from typing import Any
 
 from mechsheet.recording import (
     appended,
+    changed_rows,
     choices,
     conditions,
     each_row,
@@ -74,7 +75,7 @@ from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
 CALLS |= raised.CALLS | each_row.CALLS | rows_checked.CALLS | appended.CALLS | exactly.CALLS | named.CALLS
-CALLS |= inspected.CALLS | handed.CALLS
+CALLS |= inspected.CALLS | handed.CALLS | changed_rows.CALLS
 _ENDS = ast.Break, ast.Continue
 _NAMES = {
     *("float", "int", "complex", "len", "max", "min", "pow", "round"),

@@ -17,6 +17,7 @@ import numpy as np
 from mechsheet.recording.forms import as_choice
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
+from mechsheet.recording.shows import shows
 from mechsheet.recording.ways import former, turned
 from mechsheet.worksheet import source
 from mechsheet.worksheet.altered import altered, held_by, turned_through
@@ -48,6 +49,7 @@ class Statement(NamedTuple):
     whole: bool  # whether it hands on the inputs as a whole
     in_place: frozenset[str]  # names whose values it changes in place where these are arrays
     within: frozenset[str]  # names of what holds arrays that it changes in place
+    shows: tuple[tuple[str, int], ...]  # names whose elements it may change by names of its own
     former: frozenset[str]  # names that may be what they were before, or are made of that
     calls: frozenset[str]  # functions that it calls by a name of Python's own ones
     renamed: frozenset[str]  # of these names those that functions in it have for their own
@@ -76,6 +78,7 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         any(n.id == "g" and id(n) not in of_parts for n in names),
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
         frozenset(_of_worksheet(nodes, _within(nodes))),
+        tuple(shows(statement, nodes)),
         frozenset(former(statement)),
         calls,
         calls.intersection(chain.from_iterable(map(source.local, functions)) if calls else ()),
@@ -238,6 +241,7 @@ def _changed(nodes: Sequence[ast.AST]) -> Iterator[ast.Name]:
         match node:
             case ast.Call(ast.Attribute(ast.Name() as name, "append" | "extend" | "insert" | "update" | "add")):
                 yield name
+    yield from chain.from_iterable(map(held_by, turned_through(nodes, [*altered(nodes)])))
     yield from _in_place(nodes)
 
 

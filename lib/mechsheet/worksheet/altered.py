@@ -20,7 +20,7 @@ _GROWING = {  # methods of lists and of what holds several values
 _SHOWING = {"typeset", "summary", "title_block", "caption", "table", "figure", "check", "check_slope", "export"}
 _SHOWING |= {*vars(builtins)}
 # Attributes, methods and functions of numpy that give another name to the same elements.
-_SAME = {
+SAME = {
     "T", "real", "imag", "flat", "reshape", "ravel", "view", "transpose", "squeeze", "swapaxes", "diagonal", "asarray",
     "atleast_1d", "atleast_2d", "moveaxis", "flip",
 }  # fmt: skip
@@ -44,9 +44,25 @@ def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
 def turned_through(nodes: Iterable[ast.AST], arrays: Iterable[ast.expr]) -> Iterator[ast.expr]:
     """What loops go through whose turns change what they take out of it."""
     names = {array.id for array in arrays if isinstance(array, ast.Name)}
-    for node in nodes:
-        if isinstance(node, ast.For) and any(isinstance(n, ast.Name) and n.id in names for n in ast.walk(node.target)):
-            yield node.iter
+    for node in reversed([node for node in nodes if isinstance(node, ast.For)]):  # those in others first
+        for target, items in pairs(node.target, node.iter):
+            if any(isinstance(n, ast.Name) and n.id in names for n in ast.walk(target)):
+                names |= {items.id} if isinstance(items, ast.Name) else set()
+                yield items
+
+
+def pairs(target: ast.expr, items: ast.expr) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """What a loop calls the elements of what it goes through, each for itself."""
+    match target, items:
+        case ast.Tuple([_, each]), ast.Call(ast.Name("enumerate"), [of, *_]):
+            yield from pairs(each, of)
+        case ast.Tuple(elts=targets), ast.Call(ast.Name("zip"), several) if len(targets) == len(several):
+            for each, of in zip(targets, several, strict=True):
+                yield from pairs(each, of)
+        case _, ast.Call(ast.Name("reversed"), [of]):
+            yield from pairs(target, of)
+        case _:
+            yield target, items
 
 
 def held_by(node: ast.AST) -> Iterator[ast.Name]:
@@ -106,7 +122,7 @@ def _shown_by(value: ast.expr) -> Iterator[str]:
             yield from _shown_by(of)
         case ast.IfExp(_, then, otherwise):
             yield from chain(_shown_by(then), _shown_by(otherwise))
-        case ast.Call(ast.Attribute(of, function), args) if function in _SAME:
+        case ast.Call(ast.Attribute(of, function), args) if function in SAME:
             yield from chain.from_iterable(map(_shown_by, (of, *args[:1])))
 
 
