@@ -99,6 +99,9 @@ CHANGES = [
     "def c$N(s, t):\n    if t > 1:\n        s[0] = t\n        return s\n    s[$p] $o t\n    return s\n$A = c$N($A, $f)",
     "class C$N:\n    def __init__(self, s):\n        self.s = s\n    def c(self, t):\n        self.s[$p] $o t\n"
     "C$N($A).c($f)",
+    "if $b:\n    v$N = $A[$s]\n    v$N $o $f", "for j in range(2):\n    v$N = $A[j:]\n    v$N *= $f",
+    "R$N = np.stack([$A, $A])\nfor r$N in R$N:\n    r$N[$p] $o $f\n$A[:] = R$N[1] * $f",
+    "R$N = [$A, $A * $f]\nfor j, r$N in enumerate(R$N):\n    r$N *= j + $f\n$A = R$N[1] + R$N[0]",
 ]  # fmt: skip
 SHARING = ["{0}", "{0}[1:]", "{0}[::2]", "{0}.reshape(-1)", "{0}.copy()", "np.array({0})"]
 # What holds an array, and how it is called there.
