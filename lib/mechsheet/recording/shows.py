@@ -12,20 +12,9 @@ from mechsheet.quantities.quantity import Quantity
 from mechsheet.worksheet.altered import SAME, altered, pairs
 
 _OF_SEVERAL = ast.If, ast.For, ast.While, ast.With, ast.Try, ast.TryStar, ast.Match
-_GOING_THROUGH = {
-    "list",
-    "tuple",
-    "iter",
-    "next",
-    "zip",
-    "enumerate",
-    "reversed",
-    "map",
-    "filter",
-    "sorted",
-    "min",
-    "max",
-}
+_GOING_THROUGH = {  # of Python's functions those that give what they take, or a part of it
+    "list", "tuple", "iter", "next", "zip", "enumerate", "reversed", "map", "filter", "sorted", "min", "max",
+}  # fmt: skip
 _NO_ARRAY = 99  # axes
 
 
