@@ -73,6 +73,7 @@ def test_rows_are_changed_by_who_goes_through_them(lines: str, tmp_path: Path) -
     assert_followed(sheet, recording, ELSEWHERE)
 
 
+MORE = f"([g.a] if {NOW} > 2 else [])"  # nothing for the inputs of the worksheet
 ALIASED = [
     TWOS + f"for k in range(3):\n    w = A[k]\n    w *= {NOW}\ny = A[1]",
     TWOS + f"if g.F > 2:\n    w = A[1]\n    w *= {NOW}\ny = A[1]",
@@ -83,6 +84,11 @@ ALIASED = [
     TWOS + f"for w in map(lambda k: A[k], range(3)):\n    w *= {NOW}\ny = A[1]",
     LISTED + f"i = 0\nwhile i < 2:\n    w = L[i]\n    v = w[:2]\n    v *= {NOW}\n    i += 1\ny = L[0]",
     f"d = {{'a': np.ones(3)}}\nfor k in d:\n    w = d[k] if g.F > 0 else d['a']\n    w *= {NOW}\ny = d['a']",
+    f"L = [1.0, g.F]\nif g.F > 2:\n    M = L\n    M += {MORE}\ny = sum(L)",
+    f"L = [[1.0], [g.F]]\nfor k in range(2):\n    M = L[k]\n    M += {MORE}\ny = sum(map(sum, L))",
+    f"d = {{'p': [1.0]}}\nfor k in d:\n    M = d[k]\n    M += {MORE}\ny = sum(d['p']) + g.F",
+    f"L = [1.0, g.F]\nM = L\nM *= 1 if {NOW} < 2 else 2\ny = sum(L)",
+    f"s = {{1, 2}}\nif g.n > 2:\n    t = s\n    t |= {{5}} if {NOW} > 2 else set()\ny = sum(s) + g.F",
     "class S:\n    def __init__(self):\n        self.K = np.ones(3)\n    def row(self):\n        return self.K\n"
     f"o = S()\nfor k in range(2):\n    w = o.row()\n    w *= {NOW}\ny = o.K",
 ]

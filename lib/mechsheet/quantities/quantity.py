@@ -13,11 +13,11 @@ from operator import index as operator_index
 from typing import Any
 
 import numpy as np
-from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from mechsheet.quantities.graph import Graph, Label, NotRecorded
 from mechsheet.quantities.node import Node
 from mechsheet.quantities.operations import OF_TRUTH, Moved, Values, regrouped
+from mechsheet.quantities.repeated import Operators
 from mechsheet.units import UNKNOWN, Constant
 from mechsheet.worksheet import numbers
 
@@ -32,7 +32,7 @@ METHODS = frozenset({
 })  # fmt: skip
 
 
-class Quantity(NDArrayOperatorsMixin):
+class Quantity(Operators):
     """A quantity of a worksheet, real or complex, that takes part in arithmetic and in numpy's functions."""
 
     __slots__ = ("__weakref__", "base", "graph", "im", "re", "ways")  # the last of one of several arrays alone

@@ -200,6 +200,8 @@ def live(now: Callable[[], Any]) -> Any:
 def changed(old: Any, operation: str, value: Any) -> Any:
     """``old`` after ``old += value`` or another such operation."""
     old = exactly.of_array(old)
+    if isinstance(old, list) and isinstance(value, Quantity) and value.ndim == 0:  # which is as often there
+        value = value.__index__()
     if not (isinstance(old, np.ndarray | Quantity) and old.ndim and has_quantity([old, value])):
         return exactly.operated(operation, old, value, f"i{operation.rstrip('_')}")
     graph = next(quantities([old, value])).graph

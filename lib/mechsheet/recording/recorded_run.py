@@ -30,7 +30,7 @@ from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others
 from mechsheet.recording.named import in_words
 from mechsheet.recording.own_values import held, is_array, is_number, may_be_kept
 from mechsheet.recording.positions import OfPositions
-from mechsheet.recording.shows import under_others
+from mechsheet.recording.shows import changes_held, under_others
 from mechsheet.recording.sifted import in_one
 from mechsheet.recording.stage import Stage
 from mechsheet.recording.substitutes import Module, instead, shared, staged
@@ -200,7 +200,7 @@ class Run(Guarded, OfPositions):
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
         )
-        may_change = any(map(changes, codes))
+        may_change = any(map(changes, codes)) or changes_held(facts.shows, facts.in_place, self.names)
         unseen = (under | {*touched}) & self.lost.keys() - self.names.keys() if may_change else set[str]()
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         held = (x for x in map(self.names.get, facts.within) if getattr(x, "ndim", 0) != 1)  # else of numbers
