@@ -794,7 +794,7 @@ y = made()  # [-] set"""
         ("y = 'abab'.count('ab' if g.F > 3 else 'b') + g.F", "must be str, not recorded text"),
         ("y = len(('b' if g.F > 3 else 'c') * 3) + g.F", "for *: 'recorded text' and 'int'"),
         ("y = np.quantile(x, 0.3, method='lower')", "its argument 'method' is not followed"),
-        ("y = len(range(g.k)) * len('a' * g.k) + g.F", "values that are no numbers"),
+        ("y = np.concatenate([['a'], [g.F]]).size + g.F", "values that are no numbers"),
     ],
 )
 def test_the_reason_of_a_gap_names_nothing_that_users_do_not_know(lines: str, reason: str, tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from mechsheet.quantities.array_rules import ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import bottom_up
 from mechsheet.quantities.quantity import Quantity, lift, moved
+from mechsheet.quantities.truths import summed
 
 _MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
 _OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
@@ -26,12 +27,13 @@ def product(graph: Graph, x: Any, y: Any) -> Any:
     x, y = lift(graph, x), lift(graph, y)
     if not x.ndim or not y.ndim:
         return x * y
+    together = summed(x, y)
     if y.ndim == 1:
         graph.go_together(*x.parts, *y.parts, strictly=True)
-        return (x * y).reduced("sum", -1)
+        return (x * y).reduced(together, -1)
     if x.ndim == 1:
-        return (x[:, None] * y).reduced("sum", -2)
-    return (x[..., :, :, None] * y[..., None, :, :]).reduced("sum", -2)
+        return (x[:, None] * y).reduced(together, -2)
+    return (x[..., :, :, None] * y[..., None, :, :]).reduced(together, -2)
 
 
 def outer(graph: Graph, x: Any, y: Any) -> Any:

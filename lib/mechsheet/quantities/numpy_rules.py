@@ -335,7 +335,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.digitize: digitized, np.sort: ordered, np.cov: covariance, np.corrcoef: correlation, np.kron: kron,
     np.argsort: order, np.cross: cross, np.unwrap: unwrapped, np.einsum: summed, np.linalg.lstsq: least_squares,
     np.polyfit: polynomial_fit, np.dot: product, np.inner: product,
-    np.vdot: lambda graph, x, y: (conjugate(lift(graph, x)) * y).reduced("sum"),
+    np.vdot: lambda graph, x, y: product(graph, conjugate(lift(graph, x)).reshape(-1), lift(graph, y).reshape(-1)),
     np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: norm,
     np.linalg.inv: inverse, np.cumulative_sum: _so_far("sum"),
     np.sinc: lambda graph, x: choice(graph, lift(graph, x) == 0, 1.0, np.sin(np.pi * x) / (np.pi * x)),

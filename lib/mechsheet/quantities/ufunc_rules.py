@@ -8,7 +8,6 @@ import numpy as np
 
 from mechsheet.quantities.arithmetic import (
     absolute,
-    add,
     angle,
     choice,
     conjugate,
@@ -25,6 +24,7 @@ from mechsheet.quantities.arithmetic import (
 from mechsheet.quantities.linear_rules import product
 from mechsheet.quantities.node import is_number
 from mechsheet.quantities.quantity import UFUNCS, Quantity, lift
+from mechsheet.quantities.truths import LOGICAL, added, bitwise, logical, multiplied
 
 
 def _exp(x: Quantity) -> Any:
@@ -134,11 +134,10 @@ _ELEMENTWISE: dict[np.ufunc, str] = {
     np.arctan2: "atan2", np.remainder: "mod", np.tan: "tan",
     np.arcsin: "asin", np.arccos: "acos", np.sign: "sign", np.maximum: "max", np.minimum: "min",
     np.less: "lt", np.less_equal: "le", np.greater: "gt", np.greater_equal: "ge",
-    np.logical_and: "and", np.logical_or: "or", np.logical_not: "not", np.bitwise_and: "and", np.bitwise_or: "or",
-    np.invert: "not", np.rint: "round", np.floor: "floor",
+    np.rint: "round", np.floor: "floor",
 }  # fmt: skip
 _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
-    np.add: add, np.subtract: subtract, np.multiply: multiply, np.true_divide: divide, np.power: power,
+    np.add: added, np.subtract: subtract, np.multiply: multiplied, np.true_divide: divide, np.power: power,
     np.float_power: power, np.negative: lambda x: x.each(x.graph.neg), np.positive: lambda x: x, np.absolute: absolute,
     np.fabs: absolute, np.conjugate: conjugate, np.reciprocal: lambda x: 1 / x,
     np.exp: _exp, np.sin: _sin, np.cos: _cos, np.log: _log, np.sqrt: _sqrt, np.hypot: _hypot,
@@ -162,8 +161,13 @@ _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
     np.fmod: lambda x, y: elementwise("sign")(x) * elementwise("mod")(absolute(x), absolute(y)),
     np.modf: lambda x: (x - trunc(x), trunc(x)),
     np.logaddexp: lambda x, y: elementwise("max")(x, y) + _log1p(_exp(-absolute(x - y))),
-    np.logical_xor: lambda x, y: (x | y) & ~(x & y), np.matmul: lambda x, y: product(x.graph, x, y),
+    np.matmul: lambda x, y: product(x.graph, x, y),
     np.ldexp: lambda x, n: x * 2.0**n,
     **{ufunc: elementwise(op) for ufunc, op in _ELEMENTWISE.items()},
+    **{getattr(np, f"logical_{name}"): logical(of) for name, of in LOGICAL.items()},
+    **{
+        getattr(np, name): bitwise(name, LOGICAL[name[8:]])
+        for name in ("bitwise_and", "bitwise_or", "bitwise_xor", "bitwise_not")
+    },
 }  # fmt: skip
 UFUNCS.update(_OF_UFUNCS)
