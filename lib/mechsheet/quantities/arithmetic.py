@@ -164,8 +164,8 @@ def rounded(x: Quantity, decimals: int) -> Any:
         return x.each(lambda part: rounded(Quantity(x.graph, part), decimals).re)
     if is_whole(x) and decimals > 0:
         return x.__copy__()
-    scale = 10.0**decimals
-    made = elementwise("round")(x * scale) / scale if decimals else elementwise("round")(x)
+    scale, nearest = 10.0 ** abs(decimals), elementwise("round")
+    made = nearest(x * scale) / scale if decimals > 0 else nearest(x / scale) * scale if decimals else nearest(x)
     return whole(made) if is_whole(x) else made
 
 

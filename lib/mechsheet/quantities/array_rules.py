@@ -13,6 +13,7 @@ from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.quantity import Quantity, is_any_length, joined, lift, moved
 from mechsheet.quantities.refused import compared
+from mechsheet.quantities.truths import are_truths
 from mechsheet.units import UNKNOWN
 
 SORTED = 64  # so many numbers are put in order by comparisons; the order of more is that of the present ones
@@ -174,6 +175,8 @@ def summed(graph: Graph, subscripts: str, *operands: Any) -> Any:
             whole, name = np.diagonal(whole, 0, first, second), name.replace(letter, "") + letter
         whole = np.transpose(whole, [name.index(letter) for letter in own])
         factors.append(whole[tuple(slice(None) if letter in own else None for letter in every)])
+    if are_truths(*factors):
+        raise NotRecorded("numpy's einsum of truths")
     product = reduce(mul, factors)
     left = [letter for letter in every if letter in result]
     lost = tuple(k for k, letter in enumerate(every) if letter not in result)

@@ -18,6 +18,11 @@ def _number(f: Callable[..., Values]) -> Callable[..., Values]:
     return lambda *args: f(*[a + 0 if a.dtype == bool else a for a in args])
 
 
+def is_double(dtype: np.dtype[Any]) -> bool:
+    """Whether numbers of a kind are those that recordings have: others are rounded, cut or run over elsewhere."""
+    return dtype.kind == "b" or dtype in (np.float64, np.complex128, np.int64)
+
+
 # What the numbers of an operation are: the reference for all other readers.
 ELEMENTWISE: dict[str, Callable[..., Values]] = {
     "add": _number(np.add), "sub": _number(np.subtract), "mul": _number(np.multiply), "div": np.true_divide,

@@ -7,6 +7,7 @@ import numpy as np
 from mechsheet.quantities.arithmetic import choice
 from mechsheet.quantities.graph import Graph, NotRecorded, current
 from mechsheet.quantities.quantity import has_quantity, lift
+from mechsheet.quantities.truths import are_truths
 
 
 def value(graph: Graph, p: Any, x: Any) -> Any:
@@ -49,6 +50,8 @@ def integral(graph: Graph, p: Any, m: int = 1, k: Any = None) -> Any:
 def convolved(graph: Graph, p: Any, q: Any, mode: str = "full") -> Any:
     """numpy's convolve."""
     p, q = lift(graph, p), lift(graph, q)
+    if are_truths(p, q):
+        raise NotRecorded("numpy's convolve of truths")
     rows = [np.concatenate([np.zeros(k), c * q, np.zeros(len(p) - 1 - k)]) for k, c in enumerate(p)]
     whole, (less, more) = lift(graph, rows).reduced("sum", 0), sorted((len(p), len(q)))
     start = {"full": 0, "same": (less - 1) // 2, "valid": less - 1}[mode]

@@ -16,7 +16,7 @@ import numpy as np
 
 from mechsheet.quantities.graph import Graph, Label, NotRecorded
 from mechsheet.quantities.node import Node
-from mechsheet.quantities.operations import OF_TRUTH, Moved, Values, regrouped
+from mechsheet.quantities.operations import OF_TRUTH, Moved, Values, is_double, regrouped
 from mechsheet.quantities.repeated import Operators
 from mechsheet.units import UNKNOWN, Constant
 from mechsheet.worksheet import numbers
@@ -273,7 +273,7 @@ class Quantity(Operators):
     def astype(self, kind: Any, copy: Any = True, **_: Any) -> "Quantity":
         if not copy and self.dtype == kind:
             return self
-        if (dtype := np.dtype(kind)).kind in "fc" and np.finfo(dtype).precision < 15:
+        if not is_double(dtype := np.dtype(kind)):
             raise NotRecorded(f"numbers of the kind {dtype}")
         kind = dtype.kind
         if kind in "iufc" and self.dtype == bool:
@@ -420,8 +420,8 @@ def lift(graph: Graph, value: Any) -> Quantity:
     if isinstance(value, Constant):
         return Quantity(graph, graph.constant(float(value), value.unit))
     array = np.asarray(float(value) if type(value) is int and abs(value) > _LONGEST else value)
-    if array.dtype.kind not in "biufc":
-        raise NotRecorded("values that are no numbers")
+    if not is_double(kind := array.dtype):
+        raise NotRecorded(f"numbers of the kind {kind}" if kind.kind in "iufc" else "values that are no numbers")
     parts = map(graph.constant, (array.real, array.imag) if array.dtype.kind == "c" else (array,))
     return Quantity(graph, *parts, base=value if isinstance(value, np.ndarray) and value.ndim else None)
 

@@ -14,6 +14,7 @@ from mechsheet.quantities.arithmetic import (
     divide,
     elementwise,
     floor_divide,
+    is_whole,
     multiply,
     polar,
     power,
@@ -21,6 +22,7 @@ from mechsheet.quantities.arithmetic import (
     subtract,
     trunc,
 )
+from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.linear_rules import product
 from mechsheet.quantities.node import is_number
 from mechsheet.quantities.quantity import UFUNCS, Quantity, lift
@@ -107,6 +109,12 @@ def _number(x: Quantity, value: float) -> Quantity:
     return Quantity(x.graph, x.graph.constant(value, "-"))
 
 
+def _reciprocal(x: Quantity) -> Any:
+    if is_whole(x):
+        raise NotRecorded("reciprocal of whole numbers, which is one")
+    return 1 / x
+
+
 def _copysign(x: Quantity, y: Quantity) -> Any:
     return choice(x.graph, y >= 0, absolute(x), -absolute(x))
 
@@ -139,7 +147,7 @@ _ELEMENTWISE: dict[np.ufunc, str] = {
 _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
     np.add: added, np.subtract: subtract, np.multiply: multiplied, np.true_divide: divide, np.power: power,
     np.float_power: power, np.negative: lambda x: x.each(x.graph.neg), np.positive: lambda x: x, np.absolute: absolute,
-    np.fabs: absolute, np.conjugate: conjugate, np.reciprocal: lambda x: 1 / x,
+    np.fabs: absolute, np.conjugate: conjugate, np.reciprocal: _reciprocal,
     np.exp: _exp, np.sin: _sin, np.cos: _cos, np.log: _log, np.sqrt: _sqrt, np.hypot: _hypot,
     np.square: square, np.copysign: _copysign,
     np.heaviside: _heaviside, np.isnan: lambda x: ~finite(x), np.isfinite: finite,

@@ -46,7 +46,7 @@ def _put(old: Quantity, key: Any, value: Any) -> Any:
     new = lift(old.graph, value)
     if not has_quantity([key]):
         old = of_now(old)
-    new = new.astype(int) if cuts(old) else new
+    new = new.astype(bool) if old.dtype == bool else new.astype(int) if cuts(old) else new
     chosen = _at(old, places, new) if (places := _by_places(old, key)) else _where(old, key, new)
     return joined([old, new], _placed, plain(key)) if chosen is None else chosen
 
