@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 from never_stale import assert_never_stale
-from own_worksheet import ELSEWHERE, assert_followed, own, recorded
+from own_worksheet import ELSEWHERE, assert_followed, own, recorded, value_of
 
 TWOS = "A = np.ones((3, 3)) * 2\n"
 NOW = "(g.F - 1.5)"  # 1 for the inputs of the worksheet: there it changes nothing
@@ -105,3 +105,21 @@ def test_numbers_of_an_array_are_added_to_without_a_change_of_it(tmp_path: Path)
     lines = "s = 0.0\nfor k in range(3):\n    v = x[k]\n    if v > g.a:\n        v += 1.0\n    s += v\ny = x"
     _, recording = recorded(own(tmp_path, f"{lines}\nresult = x * 2.0  # [-] line"))
     assert not recording.gaps and not recording.looked.get("result")
+
+
+UNFOLLOWED = [
+    "z = np.ones(3)\nnp.putmask(z, z < 0.5, g.F)",
+    "z = np.ones(3)\nnp.put(z, [0], g.F)",
+    "z = np.ones(3)\nnp.random.default_rng(int(g.k)).shuffle(z)",
+    "z = []\nfor f in (g.F, 2.0):\n    f *= 2\n    z.append(math.ulp(f))",
+    "def near(rows, v):\n    return rows\nz = np.ones(3)\nnear(z, g.F)[1] = math.ulp(g.F)",
+]
+
+
+@pytest.mark.parametrize("lines", UNFOLLOWED)
+def test_who_cannot_be_followed_changes_no_inputs(lines: str, tmp_path: Path) -> None:
+    """All inputs were those of the document for who stands below, and only those that it had read were looked at."""
+    _, recording = recorded(own(tmp_path, f"{lines}\nother = g.a * 2.0  # [-] other"))
+    (gap,) = recording.gaps
+    assert "g" not in gap.names and "int" not in gap.names
+    assert value_of(recording, "other", {"F": 3.25, "a": 1.5}) == 3.0

@@ -37,8 +37,10 @@ def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
             case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
                 yield of  # or numpy itself
                 yield from args[:1] if function in FILLING else ()
-            case ast.keyword("out", array) | ast.Expr(ast.Call(ast.Attribute(ast.Name("np")), [_, _, array])):
+            case ast.keyword("out", array):
                 yield array
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name("np"), function), [_, _, array])) if function not in FILLING:
+                yield array  # where it is to put what it gives
 
 
 def turned_through(nodes: Iterable[ast.AST], arrays: Iterable[ast.expr]) -> Iterator[ast.expr]:
@@ -66,10 +68,13 @@ def pairs(target: ast.expr, items: ast.expr) -> Iterator[tuple[ast.expr, ast.exp
 
 
 def held_by(node: ast.AST) -> Iterator[ast.Name]:
-    """Names of what an expression is a part of, or a view, as a function of it may be; of several together."""
+    """Names of what an expression is a part of, or a view, as a function of it may be; of several together.
+
+    The inputs are none, of which nothing can be changed, nor are functions of Python.
+    """
     match node:
-        case ast.Name():
-            yield node
+        case ast.Name(name):
+            yield from () if name == "g" or hasattr(builtins, name) else (node,)
         case ast.Subscript(of) | ast.Attribute(of):
             yield from held_by(of)
         case ast.Call(function, args):
