@@ -40,7 +40,7 @@ from mechsheet.document.formula import (
     strength,
 )
 from mechsheet.worksheet.lines import Formula, Given
-from mechsheet.worksheet.symbol import Symbol, is_field, read
+from mechsheet.worksheet.symbol import Symbol, read
 
 
 @lru_cache(maxsize=4096)
@@ -67,7 +67,7 @@ _SOLVED = {"_found": "Find", "_least": "Minerr"}  # endings of the names of verd
 def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Node:
     """A line as an equation, or its symbol alone; of a solve block what must be equal."""
     if isinstance(line, Given):
-        parts = (tree(measured(part, line.constants), single=single) for part in (line.expression, line.target))
+        parts = (tree(_written(part, line), single=single) for part in (line.expression, line.target))
         return Row((Text("Given" if line.first else "and"), Binary(next(parts), "=", next(parts))))
     node = right(line, single)
     if node is None:
@@ -87,9 +87,12 @@ def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
     return None if node == tree(expression) else node
 
 
-def _written(part: ast.expr, line: Formula) -> ast.expr:
-    """A part of a line with its units as such, and solve blocks by their unknowns."""
-    return measured(solved.by_unknowns(part, line.solved) if line.solved else part, line.constants)
+def _written(part: ast.expr, line: Formula | Given) -> ast.expr:
+    """A part of a line with its units as such, solve blocks by their unknowns, and what calls its own functions."""
+    if isinstance(line, Formula) and line.solved:
+        part = solved.by_unknowns(part, line.solved)
+    part = measured(part, line.constants)
+    return functions.marked(part, line.own) if line.own else part
 
 
 @lru_cache(maxsize=4096)
@@ -97,15 +100,6 @@ def reads(line: Formula) -> tuple[str, ...]:
     """Names that the right side of a line reads, as they are written: ``g.L3`` too; none that has another value now."""
     read = dict.fromkeys(filter(None, map(_read_as, ast.walk(line.expression))))
     return tuple(name for name in read if name not in line.others)
-
-
-@lru_cache(maxsize=4096)
-def fields_by_name(line: Formula | Given) -> tuple[str, ...]:
-    """Names of a line that say "over S" (`is_field`)."""
-    parts = [line.expression, *((line.target,) if isinstance(line, Given) else (v for _, v in line.where))]
-    read = {node.id for part in parts for node in ast.walk(part) if isinstance(node, ast.Name)}
-    own = set() if isinstance(line, Given) else {line.name}
-    return tuple(name for name in sorted(read | own) if is_field(name))
 
 
 def tree(node: ast.expr, numbers: Mapping[str, Measure] | None = None, single: frozenset[str] = frozenset()) -> Node:
@@ -129,6 +123,8 @@ class _Reader:
         self.numbers, self.single = numbers, single
 
     def read(self, node: ast.expr) -> Node:
+        if isinstance(node, ast.Call) and hasattr(node, "is_own"):
+            return functions.own(self, node)
         node = mapped.written_out(names.bare(node))
         kind = type(node)
         if self.numbers and kind in (ast.Name, ast.Attribute) and (number := self.numbers.get(_read_as(node))):

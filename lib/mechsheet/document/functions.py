@@ -5,11 +5,15 @@ the table has not, all stands in brackets behind its name, and an axis as an ind
 """
 
 import ast
+import builtins
 from collections.abc import Callable, Iterable
+from copy import deepcopy
 from functools import lru_cache
 from inspect import Signature, signature
 from math import ceil
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, cast
+
+import numpy as np
 
 from mechsheet.document import mapped, names
 from mechsheet.document.formula import (
@@ -78,6 +82,29 @@ def call(reader: Reader, node: ast.Call) -> Node:
     if names.is_of_all(name, len(args)):
         reader = reader.symbols()
     return _ruled(reader, name, args, keywords) or _plain(reader, name, args, keywords)
+
+
+def marked(part: ast.expr, own: frozenset[str]) -> ast.expr:
+    """An expression in which calls of ``own`` functions are known as such where others are called so."""
+    taken = frozenset(name for name in own if name in RULES or hasattr(np, name) or hasattr(builtins, name))
+    return cast("ast.expr", _OfOwn(taken).visit(deepcopy(part))) if taken else part
+
+
+class _OfOwn(ast.NodeTransformer):
+    def __init__(self, own: frozenset[str]) -> None:
+        self.own = own
+
+    def visit_Call(self, node: ast.Call) -> ast.Call:
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id in self.own:
+            node.is_own = True  # type: ignore[attr-defined]
+        return node
+
+
+def own(reader: Reader, node: ast.Call) -> Node:
+    """A function of the worksheet's by its name, whatever numpy has of the same."""
+    name = node.func.id if isinstance(node.func, ast.Name) else ""
+    return Apply(Function(name), _told(reader, node.args, node.keywords))
 
 
 def _method(reader: Reader, node: ast.Attribute) -> Node:

@@ -9,6 +9,7 @@ from string import ascii_letters
 import numpy as np
 
 from mechsheet.document.formula import Apply, Binary, Brackets, Function, Node, Number, Text
+from mechsheet.worksheet.lines import Formula, Given
 from mechsheet.worksheet.symbol import DIFFERENCE, GREEK, INDEXED, LETTER, LETTERS, Symbol, is_field, read, stem
 
 FUNCTIONS = {
@@ -224,3 +225,12 @@ def part(name: str) -> Node:
     """Part of a result: its symbol, or its name in words."""
     words = re.fullmatch(r"[a-z]{3,}(_[a-z]{3,})*", name) and not re.match(LETTER, name)
     return _RATES.get(name) or (Function(name.replace("_", " ")) if words else symbol(name))
+
+
+@lru_cache(maxsize=4096)
+def fields_by_name(line: Formula | Given) -> tuple[str, ...]:
+    """Names of a line that say "over S" (`is_field`)."""
+    parts = [line.expression, *((line.target,) if isinstance(line, Given) else (v for _, v in line.where))]
+    read = {node.id for part in parts for node in ast.walk(part) if isinstance(node, ast.Name)}
+    own = set() if isinstance(line, Given) else {line.name}
+    return tuple(name for name in sorted(read | own) if is_field(name))

@@ -13,9 +13,10 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import beside, blocks, fitting
-from mechsheet.document.expression import equation, fields_by_name
+from mechsheet.document.expression import equation
 from mechsheet.document.markup import as_written, compared, meant, message, named, once, printed, where
 from mechsheet.document.mathml import mathml
+from mechsheet.document.names import fields_by_name
 from mechsheet.document.parts import Control, Line, Section, Text
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index, markdown, offered

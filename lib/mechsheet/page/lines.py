@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
-from mechsheet.document.expression import equation, fields_by_name, reads, substituted
+from mechsheet.document.expression import equation, reads, substituted
 from mechsheet.document.formula import Measure
 from mechsheet.document.markup import attribute, meant, once, printed, where
 from mechsheet.document.mathml import equal_to, mathml
+from mechsheet.document.names import fields_by_name
 from mechsheet.page import switched
 from mechsheet.page.unchanged import kept
 from mechsheet.worksheet import symbol

@@ -142,6 +142,12 @@ class Recording:
     sections: list[str] = field(default_factory=list)
     names: dict[Node, str] = field(default_factory=dict)
 
+    def leave_out(self, names: Iterable[str], line: int, reason: str) -> None:
+        """Note what a statement leaves out, with what it has left out already."""
+        same = self.gaps and self.gaps[-1][1:] == (line, reason)
+        before = self.gaps.pop().names if same else ()
+        self.gaps.append(Gap(tuple(dict.fromkeys((*before, *names))), line, reason))
+
     def define(self, section: str, name: str, value: Any, known: Mapping[str, Formula], arrays: bool = False) -> None:
         """Give the quantities of a line its name, and the steps behind it theirs; those of constants if ``arrays``."""
         if not isinstance(value, Quantity):

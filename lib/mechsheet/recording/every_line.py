@@ -30,7 +30,7 @@ def add_lines(run: Run) -> None:
                 known.update(each.gives)
     if further := recording.gaps[gaps:]:
         at, names = _behind_lines(run, behind)
-        recording.gaps[gaps:] = [gap for gap in further if not names.isdisjoint(at.get(gap.line, ()))]
+        recording.gaps[gaps:] = [gap for gap in further if not names.isdisjoint({*gap.names, *at.get(gap.line, ())})]
     for cell in sorted(behind, key=run.sheet.cells.index):
         for name in _bound(cell):
             _note(run, cell, name)

@@ -358,11 +358,8 @@ class Run(Guarded, OfPositions):
         guards = self.while_are(rests_on)
         if not final or not final.issuperset(touched) or any(held(self.namespace.get(name)) for name in final):
             if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
-                public, gaps = tuple(name for name in touched if not name.startswith("_")), self.recording.gaps
-                gap = Gap(public, graph.line, as_written(str(reason)))
-                if gaps and gaps[-1][1:] == gap[1:]:  # of another name that the line binds
-                    gap = gap._replace(names=gaps.pop().names + public)
-                gaps.append(gap)
+                public = [name for name in touched if not name.startswith("_")]
+                self.recording.leave_out(public, graph.line, as_written(str(reason)))
             for guard in guards:
                 self.note(guard)
         known = [name for name in touched if name in final and may_be_kept(name, self.namespace)]
@@ -394,6 +391,8 @@ class Run(Guarded, OfPositions):
     def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
         """Names whose values a statement has changed, or may have changed, nobody knows how."""
         every = [*self.recording.inputs.values()]
+        if shown := sorted(name for name in names if name in self.lines):
+            self.recording.leave_out(shown, self.graph.line, as_written(str(reason)))
         for name in names:
             self.looked[name] = self.while_are(every)
             if name not in later and may_be_kept(name, self.namespace):

@@ -31,7 +31,7 @@ class Formula(NamedTuple):
     in SI. ``solved`` are the names of solve blocks in it, each with one that tells the unknown, such as ``beta_found``.
     From the line ``again`` on its name has another value, which is not the line's; ``others`` are the names that
     it reads and that have other values once the cell has run. Where a value is ``altered`` in place by then, its own or
-    one that it reads, its formula gives another one.
+    one that it reads, its formula gives another one. Its ``own`` functions are none of numpy's that have these names.
     """
 
     name: str
@@ -47,6 +47,7 @@ class Formula(NamedTuple):
     again: int = 0
     others: frozenset[str] = frozenset()
     altered: bool = False
+    own: frozenset[str] = frozenset()
 
     @property
     def has_value(self) -> bool:
@@ -70,6 +71,7 @@ class Given(NamedTuple):
     first: bool = True
     constants: tuple[tuple[str, str], ...] = ()
     name: str = ""
+    own: frozenset[str] = frozenset()
 
 
 class Declared(NamedTuple):

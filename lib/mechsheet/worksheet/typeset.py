@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise, starmap
 from operator import attrgetter
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -87,7 +88,9 @@ def no_number(row: Formula, value: Any) -> str:
 
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any], blocks: Mapping[str, str]) -> Formula | Given:
-    """A line with the units among the names that it reads, and with the unknowns of solve ``blocks``."""
+    """A line with the units and own functions among the names that it reads, and the unknowns of solve ``blocks``."""
+    own = frozenset(name for name in names_read(row) if _is_own(namespace.get(name)))
+    row = row._replace(own=own) if own else row
     found = ((name, _of_unit(name, namespace)) for name in names_read(row))
     constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
     row = row._replace(constants=constants) if constants else row
@@ -106,6 +109,14 @@ def _unknowns(cells: tuple[source.Cell, ...]) -> dict[str, str]:
                 ending = "_found" if kind == "find" else "_least"
                 found |= {} if name.endswith(("_found", "_least")) else {name: f"{unknown}{ending}"}
     return found
+
+
+def _is_own(value: Any) -> bool:
+    """Whether a function is one of the worksheet's, or of a module of its own."""
+    return isinstance(value, FunctionType) and str(value.__module__).partition(".")[0] not in _PACKAGES
+
+
+_PACKAGES = {"numpy", "scipy", "mechsheet", "pandas"}
 
 
 def _of_unit(name: str, namespace: Mapping[str, Any]) -> Any:

@@ -1,0 +1,33 @@
+"""Functions of a worksheet's own that are called like one that is known: they stand in formulas by their names."""
+
+import re
+from pathlib import Path
+
+import pytest
+from own_worksheet import written
+
+from mechsheet.html import write
+from mechsheet.worksheet.cells import load
+
+SETUP = "import numpy as np\nfrom numpy import maximum\nfrom mechsheet import ask, inputs, read, typeset"
+NAMES = ["power", "square", "hypot", "cbrt", "conj", "where", "floor", "exp", "sum", "abs", "interp", "sin", "divide"]
+
+
+def line(tmp_path: Path, setup: str, formula: str) -> str:
+    """The text of a line as the page shows it."""
+    path = tmp_path / "own.py"
+    path.write_text(written(setup, "F: float = 2.5  # [-] force", f"P = {formula}  # [-] product\ntypeset()"))
+    shown = write.page(sheet := load(path), sheet.inputs())
+    (found,) = re.findall('<math.*?id="line-P".*?product|id="line-P".*?product', shown, re.DOTALL)
+    return re.sub("<[^>]*>", "", found)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_function_of_the_worksheet_is_written_by_its_name(name: str, tmp_path: Path) -> None:
+    """power(F, v) = F v stood there as the power of them: a formula that is not true."""
+    shown = line(tmp_path, f"{SETUP}\n\ndef {name}(F, v):\n    return F * v\n", f"{name}(g.F, 2.0) + 1.0")
+    assert re.search(rf"{name}\W*\(\W*F\W*2\W*\)", shown), shown
+
+
+def test_one_of_numpy_is_written_as_it_is_known(tmp_path: Path) -> None:
+    assert "max" in (shown := line(tmp_path, SETUP, "maximum(g.F, 2.0)")) and "maximum" not in shown
