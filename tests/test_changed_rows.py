@@ -123,3 +123,24 @@ def test_who_cannot_be_followed_changes_no_inputs(lines: str, tmp_path: Path) ->
     (gap,) = recording.gaps
     assert "g" not in gap.names and "int" not in gap.names
     assert value_of(recording, "other", {"F": 3.25, "a": 1.5}) == 3.0
+
+
+OVERWRITING = [
+    f"from scipy.linalg import solve\nz = np.ones(2)\nsolve(np.eye(2) * {NOW}, z, overwrite_b=True)\ny = z",
+    f"import scipy.linalg as la\nz = np.ones(2)\nw = la.solve(np.eye(2) * {NOW}, z, overwrite_b=True)\ny = z",
+]
+
+
+@pytest.mark.parametrize("lines", OVERWRITING)
+def test_an_array_that_scipy_overwrites_is_never_stale(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+
+
+def test_reasons_name_what_users_wrote(tmp_path: Path) -> None:
+    """'function' object has no attribute 'at', 'recorded number' object does not support item assignment."""
+    for lines, said in (
+        ("z = np.zeros(3)\nnp.add.at(z, [0, 0], g.F)\ny = z", "at of a function is not followed"),
+        ("A = np.zeros((2, 3))\nA.T[0, 1] = g.F\ny = A[1]", "has no name of its own"),
+    ):
+        _, recording = recorded(own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line"))
+        assert said in recording.gaps[0].reason

@@ -94,6 +94,16 @@ RIGHT = {
         "R = x[0]  # [N] force",
         "T = x[2]  # [N*m] moment",
     ],
+    "a force at a computed place": [  # all of the vector was taken for forces, and a right beam failed
+        "k = g.F / g.L",
+        "A = np.array([[k, k * g.L], [k * g.L, 2 * k * g.L**2]])",
+        "b = np.zeros(2)",
+        "j = int(np.round(g.L / g.D)) * 0",
+        "b[j] -= g.F",
+        "d = np.linalg.solve(A, b)",
+        "x = d[0]  # [m] way",
+        "a = d[1]  # [rad] angle",
+    ],
     "rows out of order": [
         "A = np.array([[0, 0.5, 0], [g.L, g.D, 1], [1, 0, 0]])",
         "x = np.linalg.solve(A, np.array([2 * g.F, g.M, g.F]))",

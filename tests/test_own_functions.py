@@ -31,3 +31,16 @@ def test_a_function_of_the_worksheet_is_written_by_its_name(name: str, tmp_path:
 
 def test_one_of_numpy_is_written_as_it_is_known(tmp_path: Path) -> None:
     assert "max" in (shown := line(tmp_path, SETUP, "maximum(g.F, 2.0)")) and "maximum" not in shown
+
+
+def test_a_method_that_keeps_something_is_called_for_each_row(tmp_path: Path) -> None:
+    """It was taken for a formula of a row, and the page could not be written: KeyError: 'state'."""
+    path = tmp_path / "own.py"
+    lines = (
+        "class R:\n    def __init__(self):\n        self.s = 0.0\n    def push(self, x):\n        if x > self.s:\n"
+        "            self.s = x\n        return self.s\nrat = R()\n"
+        "tops = np.array([rat.push(x) for x in g.xs])  # [-] running greatest\ntypeset()"
+    )
+    path.write_text(written(SETUP, "xs: list[float] = [0.1, 0.5, 0.2]  # [-] points", lines))
+    sheet = load(path)
+    assert "running greatest" in write.page(sheet, sheet.inputs())

@@ -6,7 +6,9 @@ import pytest
 from never_stale import assert_never_stale
 from own_worksheet import ELSEWHERE, assert_followed, own, recorded
 
+from mechsheet import sweep
 from mechsheet.quantities.lines import Recording
+from mechsheet.worksheet.cells import Worksheet
 
 FOLLOWED = [
     "y = (g.F > 3) + (g.a > 1)",
@@ -39,7 +41,7 @@ NUMPY_S = [  # or Python's: of both being true nobody knows
 BITS = ["y = g.k & 1", "y = round(g.F) & 1", "y = len(x) | 1", "y = np.bitwise_and(x.astype(int), 3)"]
 
 
-def of(lines: str, tmp_path: Path) -> tuple[object, Recording]:
+def of(lines: str, tmp_path: Path) -> tuple[Worksheet, Recording]:
     sheet = own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1.0  # [-] line")
     return sheet, recorded(sheet)[1]
 
@@ -68,3 +70,9 @@ def test_bits_of_numbers_are_told(lines: str, tmp_path: Path) -> None:
     """They were taken for truths: 2 & 1 was 1."""
     _, recording = of(lines, tmp_path)
     assert any("bitwise" in gap.reason and "numbers" in gap.reason for gap in recording.gaps)
+
+
+def test_a_truth_is_swept_as_one_or_none(tmp_path: Path) -> None:
+    """The page and the command show it so; a sweep said that it is no number."""
+    sheet, _ = of("y = 0.0\ngood = g.F > 3  # [-] whether", tmp_path)
+    assert sweep(sheet.path, ["good"], {"F": [2.0, 4.0]})["good"].tolist() == [0.0, 1.0]

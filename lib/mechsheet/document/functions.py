@@ -104,7 +104,7 @@ class _OfOwn(ast.NodeTransformer):
 def own(reader: Reader, node: ast.Call) -> Node:
     """A function of the worksheet's by its name, whatever numpy has of the same."""
     name = node.func.id if isinstance(node.func, ast.Name) else ""
-    return Apply(Function(name), _told(reader, node.args, node.keywords))
+    return Apply(Text(name), _told(reader, node.args, node.keywords))
 
 
 def _method(reader: Reader, node: ast.Attribute) -> Node:

@@ -148,7 +148,9 @@ def _at(old: Quantity, places: list[Any], new: Quantity) -> Quantity | None:
     value = new[kept] if new.ndim else new
     if np.broadcast_shapes(value.extent, old.extent) != old.extent:
         return None
-    set_to: Quantity = choice(graph, reduce(operator.and_, is_set), value, old)
+    where = lift(graph, reduce(operator.and_, is_set))
+    graph.pivots.add(where.re)  # what stands at another place may have another unit
+    set_to: Quantity = choice(graph, where, value, old)
     return only_where(graph, there, set_to)
 
 
@@ -274,6 +276,13 @@ def outside(value: Any) -> Any:
     return value
 
 
+def overwriting(value: Any) -> Any:
+    """Whether scipy may put what it needs into the arrays that it is given: none would be put for them."""
+    if value:
+        raise NotRecorded("an array that scipy overwrites")
+    return value
+
+
 def former(values: list[Any]) -> list[Any]:
     """Arrays before what changes them, for who looks behind that whether they are known still."""
     arrays = [owner(array) for array in values if isinstance(array, np.ndarray | Quantity) and array.ndim]
@@ -338,6 +347,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
-    "live": live, "put_held": put_held, "changed_held": changed_held,
+    "live": live, "put_held": put_held, "changed_held": changed_held, "overwriting": overwriting,
 }  # fmt: skip
 CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}

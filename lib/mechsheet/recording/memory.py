@@ -411,8 +411,12 @@ def changes(code: CodeType) -> bool:
 
 
 def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
-    """Whether some code, or a function of the worksheet that it names, may change something in place."""
+    """Whether some code, or a function of the worksheet or of a class of its that it names, may change something."""
     waiting, seen = list(codes), set[CodeType]()
+    methods = dict[str, list[Any]]()
+    for name, f in (item for made in own.values() if isinstance(made, type) for item in vars(made).items()):
+        if isinstance(f, FunctionType) and f.__globals__ is own:
+            methods.setdefault(name, []).append(f)
     while waiting:
         code = waiting.pop()
         if code in seen:
@@ -420,6 +424,6 @@ def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
         seen.add(code)
         if changes(code):
             return True
-        named = (own.get(name) for name in names_of(code))
+        named = [f for name in names_of(code) for f in (own.get(name), *methods.get(name, ()))]
         waiting += [f.__code__ for f in named if isinstance(f, FunctionType) and f.__globals__ is own]
     return False

@@ -1,6 +1,7 @@
 """A part by its name, as a text that inputs choose; and what is recorded by the names that users know."""
 
 import re
+from types import FunctionType
 from typing import Any
 
 from mechsheet.quantities.graph import current
@@ -24,13 +25,19 @@ _KNOWN_AS: dict[type, str] = {
 _NAMES = {kind.__name__: known for kind, known in _KNOWN_AS.items()}
 _NAME = re.compile(rf"\b({'|'.join(_NAMES)})\b")
 _ARGUMENT = re.compile(r"^\S+\(\) got an unexpected keyword argument ('\w+')$")  # of what stands for numpy's function
+# What Python and numpy say where another array would have to be put for one.
+_NOT_SET = "object does not support item assignment", "setting an array element with a sequence."
 
 
 def in_words(error: BaseException) -> str:
     """What Python says of an error, without the classes of what stands for numbers and texts."""
     if any(isinstance(key, Chosen) for key in error.args):
         return "of an option a table of pandas takes the text, str(..)"
+    if isinstance(error, AttributeError) and isinstance(error.obj, FunctionType):
+        return f"{error.name} of a function is not followed"
     said = str(error).splitlines()[0] if str(error) else repr(error)
+    if said.endswith(_NOT_SET):
+        return "an element is set of an array that has no name of its own there"
     return _NAME.sub(lambda match: _NAMES[match[1]], _ARGUMENT.sub(r"its argument \1 is not followed", said))
 
 

@@ -5,7 +5,7 @@ from collections.abc import Set
 
 from mechsheet.recording.exactly import OPERATIONS
 from mechsheet.recording.forms import call, index
-from mechsheet.worksheet.altered import ARRANGING, FILLING
+from mechsheet.worksheet.altered import ARRANGING, FILLING, overwrites
 
 ARRAYS = {  # functions that give new ones
     "zeros", "ones", "empty", "full", "eye", "arange", "linspace", "array", "copy", "zeros_like", "ones_like",
@@ -55,6 +55,8 @@ def outside(node: ast.Call) -> None:
             function.value = call("outside", node, values)
         case ast.Call(ast.Attribute(_, function), [array, *others]) if function in FILLING:
             node.args = [call("outside", node, array), *others]
+    for keyword in filter(overwrites, node.keywords):
+        keyword.value = call("overwriting", node, keyword.value)
     for keyword in node.keywords:
         if keyword.arg == "out" and isinstance(node.func, ast.Attribute):
             keyword.value = call("outside", node, keyword.value)
@@ -63,7 +65,7 @@ def outside(node: ast.Call) -> None:
 def is_outside(node: ast.Call) -> bool:
     """Whether there may be such an array."""
     name = node.func.attr if isinstance(node.func, ast.Attribute) else ""
-    return name in ARRANGING or name in FILLING or any(keyword.arg == "out" for keyword in node.keywords)
+    return name in ARRANGING or name in FILLING or any(k.arg == "out" or overwrites(k) for k in node.keywords)
 
 
 def put(node: ast.stmt, name: str, key: ast.expr, value: ast.expr) -> tuple[ast.stmt, ast.Expr]:

@@ -367,7 +367,7 @@ def _one(value: Any) -> Any:
 
 def _wanted(name: str, names: Mapping[str, Any]) -> Any:
     """A wanted number or field, or a part of it; TypeError, which no variant takes for its reason, for all else."""
-    if array(names.get(base(name), "")).dtype.kind not in "iufc":
+    if array(names.get(base(name), "")).dtype.kind not in "biufc":
         raise TypeError(f"{name} is no number and cannot be swept")
     return wanted(name, names)
 

@@ -34,6 +34,8 @@ def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
                 yield target
             case ast.Subscript(of, ctx=ast.Store()) | ast.Attribute(of, ctx=ast.Store()):
                 yield of
+            case ast.Call(args=args, keywords=named) if any(map(overwrites, named)):
+                yield from args
             case ast.Call(ast.Attribute(of, function), args) if function in ARRANGING or function in FILLING:
                 yield of  # or numpy itself
                 yield from args[:1] if function in FILLING else ()
@@ -41,6 +43,11 @@ def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
                 yield array
             case ast.Expr(ast.Call(ast.Attribute(ast.Name("np"), function), [_, _, array])) if function not in FILLING:
                 yield array  # where it is to put what it gives
+
+
+def overwrites(named: ast.keyword) -> bool:
+    """Whether an argument lets a function of scipy put what it needs into the arrays that it is given."""
+    return (named.arg or "").startswith("overwrite_")
 
 
 def turned_through(nodes: Iterable[ast.AST], arrays: Iterable[ast.expr]) -> Iterator[ast.expr]:
@@ -142,6 +149,8 @@ def _changed(line: ast.stmt, functions: Mapping[str, ast.FunctionDef], by_others
         match node:
             case ast.Subscript(of, ctx=ast.Store() | ast.Del()) | ast.Attribute(of, ctx=ast.Store() | ast.Del()):
                 parts.append(of)
+            case ast.Call(args=args, keywords=given) if any(map(overwrites, given)):
+                parts += args
             case ast.Call(ast.Attribute(of, name), [first, *_]) if name in FILLING and _is_of_numpy(of, name):
                 parts.append(first)
             case ast.Call(ast.Attribute(of, name)) if name in _GROWING | ARRANGING and not _is_of_numpy(of, name):
