@@ -4,6 +4,7 @@ import builtins
 import dataclasses
 import dis
 import gc
+import pickle
 import sys
 import weakref
 from collections import deque
@@ -297,6 +298,8 @@ def _parts(value: Any) -> list[Any] | None:
                 if value.dtype == object
                 else [f"{value.dtype}{value.shape}".encode() + value.tobytes()]
             )
+        case _ if type(value).__module__.partition(".")[0] == "pandas" and hasattr(value, "to_numpy"):
+            return _of_frame(value)  # whose columns stand in what only its own code looks into
         case CellType():
             return _content(value)
         case type():
@@ -317,6 +320,19 @@ def _parts(value: Any) -> list[Any] | None:
     return [*getattr(value, "__dict__", {}).values(), *(getattr(value, name, None) for name in held)]  # not computed
 
 
+def _of_frame(value: Any) -> list[Any]:
+    """What a table, a column or an index of pandas holds: its own values as they are written, others each by itself."""
+    columns = [*value.items()] if hasattr(value, "items") and hasattr(value, "columns") else [("", value)]
+    held = [[name, *column.tolist()] for name, column in columns]
+    index: Any = getattr(value, "index", None)
+    held += [] if index is None else [index.tolist()]
+    plain = [[x if isinstance(x, _WRITTEN) else None for x in each] for each in held]
+    return [pickle.dumps(plain), *(x for each in held for x in each if not isinstance(x, _WRITTEN))]
+
+
+_WRITTEN = bool | int | float | complex | str | bytes | np.generic | None
+
+
 def _inside(value: Any) -> list[Any] | None:
     """What there is to look at in a value: in an array of numbers nothing."""
     return [] if isinstance(value, np.ndarray) and value.dtype != object else _parts(value)
@@ -331,7 +347,7 @@ def _content(cell: CellType) -> list[Any]:
 
 def _as_it_was(value: Any, parts: list[Any] | None) -> bool:
     if isinstance(value, weakref.ref):
-        value = value()
+        value = None if parts is None else value()  # of an array; a reference itself always is
         if value is None:  # nobody reaches it any more
             return True
     now = _parts(value)
@@ -396,7 +412,9 @@ def operations(code: CodeType) -> set[str]:
 @lru_cache(maxsize=4096)
 def changes(code: CodeType) -> bool:
     """Whether code, or a function in it, may change something in place: it sets a part, or calls for no value."""
-    if not _METHODS.isdisjoint(code.co_names):
+    if not _METHODS.isdisjoint(code.co_names) or any(
+        "inplace" in part for part in code.co_consts if type(part) is tuple
+    ):
         return True
     last, does = "", operations(code)
     # From Python 3.12 on a comprehension is called no more: one for no value ends by these.
