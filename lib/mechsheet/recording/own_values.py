@@ -1,7 +1,7 @@
 """Values of a worksheet's own run, as far as a recording can take them for what it does not follow."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import partial
 from types import FunctionType, MethodType, SimpleNamespace
@@ -20,6 +20,15 @@ def shown(own: Any) -> bool:
     """Whether a value of a worksheet is what a writer shows."""
     group = own if isinstance(own, tuple | list) else [own]
     return any(isinstance(v, Table | Figure | Check | Verdict) for v in group)
+
+
+def changed_as(names: Iterable[str], later: Iterable[str], namespace: Mapping[str, Any]) -> str:
+    """That an array is changed further below under another name, and under which one; "" where it is not."""
+    for array in (x for x in map(namespace.get, names) if isinstance(x, np.ndarray)):
+        for other in sorted(later):
+            if isinstance(known := namespace.get(other), np.ndarray) and np.may_share_memory(array, known):
+                return f" is changed below, where it is called {other}"
+    return ""
 
 
 def held(own: Any) -> bool:

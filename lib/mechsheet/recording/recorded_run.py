@@ -28,7 +28,7 @@ from mechsheet.recording.guarded import Guarded
 from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
 from mechsheet.recording.named import in_words
-from mechsheet.recording.own_values import held, is_array, is_number, may_be_kept
+from mechsheet.recording.own_values import changed_as, held, is_array, is_number, may_be_kept
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.shows import changes_held, under_others
 from mechsheet.recording.sifted import in_one
@@ -41,6 +41,7 @@ from mechsheet.worksheet.lines import Formula, of_setup, rebound
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.title import Mark, Slider
 
+_DIFFERS = " would differ from the worksheet"
 _PLACES = {"argmax", "argmin", "argsort"}
 _MADE = "what it says is no text that is recorded"
 
@@ -230,8 +231,8 @@ class Run(Guarded, OfPositions):
                 differs = self.differing(stage, final)
             if not all(map(self.of_listed, differs)):
                 of_all = " is of all positions, and only those that tables list are recorded"
-                differ = of_all if graph.thin > 1 else " would differ from the worksheet"
-                raise NotRecorded(", ".join(differs) + differ)
+                other = changed_as(differs, self.to_change, self.namespace)
+                raise NotRecorded(", ".join(differs) + (of_all if graph.thin > 1 else other or _DIFFERS))
             if any(not _PLACES.isdisjoint(names_of(code)) for code in codes):
                 decided(graph)
             if stage.built(final) and self.leaves(facts, under, codes, before):
