@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from mechsheet.quantities.arithmetic import add, elementwise, multiply
+from mechsheet.quantities.arithmetic import add, elementwise, is_whole, multiply
 from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
@@ -51,10 +51,10 @@ def logical(of: Callable[..., Quantity]) -> Callable[..., Quantity]:
 
 
 def bitwise(name: str, of: Callable[..., Quantity]) -> Callable[..., Any]:
-    """A bitwise one, of truths."""
+    """A bitwise one, of truths: Python has bits of whole numbers too, and of no others."""
 
     def operation(*several: Quantity) -> Quantity:
-        if not are_truths(*several):
+        if any(x.dtype != bool and is_whole(x) for x in several):
             raise NotRecorded(f"{name} of numbers")
         return of(*several)
 
