@@ -26,7 +26,7 @@ def added(x: Quantity, y: Quantity) -> Quantity:
     if x.ndim or y.ndim:
         return _OR(x, y)
     total = add(x, y)
-    if not (_is_python_s(x.re) and _is_python_s(y.re)) and _AND(x, y).seen():
+    if not (_is_of_python(x.re) and _is_of_python(y.re)) and _AND(x, y).seen():
         raise NotRecorded("a sum of two truths, which is another number where these are numpy's")
     return total
 
@@ -40,7 +40,7 @@ def summed(x: Quantity, y: Quantity) -> str:
     return "any" if are_truths(x, y) else "sum"
 
 
-def _is_python_s(node: Node) -> bool:
+def _is_of_python(node: Node) -> bool:
     """Whether a number is surely none of numpy's."""
     return all(part.op in _OF_PYTHON and not part.shape for part in bottom_up([node], ()))
 
