@@ -5,15 +5,10 @@ from typing import Any
 
 from mechsheet.quantities.arithmetic import add, elementwise, is_whole, multiply
 from mechsheet.quantities.graph import NotRecorded
-from mechsheet.quantities.node import Node, bottom_up
 from mechsheet.quantities.quantity import Quantity
+from mechsheet.quantities.refused import is_pythons
 
 _AND, _OR, _NOT = map(elementwise, ("and", "or", "not"))
-# Operations that are Python's own where their operands are: its functions may be numpy's of the same name.
-_OF_PYTHON = frozenset((
-    "input", "constant", "add", "sub", "mul", "div", "neg", "pow", "mod", "lt", "le", "gt", "ge", "eq", "ne", "and",
-    "or", "not",
-))  # fmt: skip
 
 
 def are_truths(*several: Quantity) -> bool:
@@ -26,7 +21,7 @@ def added(x: Quantity, y: Quantity) -> Quantity:
     if x.ndim or y.ndim:
         return _OR(x, y)
     total = add(x, y)
-    if not (_is_of_python(x.re) and _is_of_python(y.re)) and _AND(x, y).seen():
+    if not all(is_pythons(x.graph, part) for part in (x.re, y.re)) and _AND(x, y).seen():
         raise NotRecorded("a sum of two truths, which is another number where these are numpy's")
     return total
 
@@ -38,11 +33,6 @@ def multiplied(x: Quantity, y: Quantity) -> Quantity:
 def summed(x: Quantity, y: Quantity) -> str:
     """What numpy reduces the products of two arrays by: of truths to whether any of them holds."""
     return "any" if are_truths(x, y) else "sum"
-
-
-def _is_of_python(node: Node) -> bool:
-    """Whether a number is surely none of numpy's."""
-    return all(part.op in _OF_PYTHON and not part.shape for part in bottom_up([node], ()))
 
 
 def logical(of: Callable[..., Quantity]) -> Callable[..., Quantity]:

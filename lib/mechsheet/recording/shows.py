@@ -3,7 +3,7 @@
 import ast
 import builtins
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from types import ModuleType
 from typing import Any
 
@@ -85,29 +85,25 @@ def _shown_by(value: ast.expr, axes: int = 1) -> Iterator[tuple[str, int]]:
 
 
 def under_others(found: Sequence[tuple[str, int]], names: Mapping[str, Any], under: Set[str]) -> Set[str]:
-    """Those of the names, among values, that are of arrays; of objects and functions all that is ``under`` these."""
+    """Those of the names, among values, that are of arrays or may hold some; of others all that is ``under`` these."""
     values = [(name, axes, names.get(name)) for name, axes in found]
     if any(hasattr(value, "__dict__") and not isinstance(value, _NOT_OWN) for *_, value in values):
         return under
-    return {name for name, axes, value in values if _holds_one(value, axes, np.ndarray | Quantity)}
+    return {name for name, axes, value in values if not isinstance(value, np.ndarray | Quantity) or value.ndim >= axes}
 
 
 def changes_held(found: Sequence[tuple[str, int]], in_place: Set[str], names: Mapping[str, Any]) -> bool:
     """Whether a statement may change lists, or what else holds values, by ``+=`` or the like."""
-    if any(isinstance(names.get(name), _CONTAINERS) for name in in_place):
-        return True
-    return any(_holds_one(names.get(name), axes, _CONTAINERS) for name, axes in found)
+    parts = [names.get(name) for name in in_place]
+    for name, axes in found:
+        value = names.get(name)
+        parts += [value] if axes < 2 else value.values() if isinstance(value, dict) else _elements(value)
+    return any(isinstance(part, _CONTAINERS) for part in parts)
+
+
+def _elements(value: Any) -> Iterable[Any]:
+    return value if isinstance(value, _CONTAINERS | tuple) else ()
 
 
 _CONTAINERS: Any = list | dict | set | deque
 _NOT_OWN = ModuleType | type | np.ndarray | Quantity
-
-
-def _holds_one(value: Any, axes: int, kind: Any) -> bool:
-    """Whether so many axes of a value lead to one of a kind."""
-    if isinstance(value, np.ndarray | Quantity):
-        return kind is not _CONTAINERS and value.ndim >= axes
-    if axes < 2 and isinstance(value, kind):
-        return True
-    parts = value.values() if isinstance(value, dict) else value if isinstance(value, _CONTAINERS | tuple) else ()
-    return any(_holds_one(part, min(axes, 2) - 1, kind) for part in parts)
