@@ -447,3 +447,21 @@ SPECIAL = [
 def test_an_object_says_itself_whether_it_is_true(lines: str, tmp_path: Path) -> None:
     """One of several was true and had a text of its own, whatever its class says of that."""
     assert_never_stale(lines, tmp_path)
+
+
+REFUSED = [
+    "y = np.geomspace(abs(g.F - 3.25), 2.0, 4)",
+    "y = np.geomspace(g.a, abs(g.F - 3.25), 4)",
+    "y = np.average([1.0, 2.0], weights=[g.F, -3.25])",
+    "y = np.average(x, weights=x * (g.F - 3.25))",
+    "y = math.comb(2 - g.k, 1) * g.F",
+    "y = math.comb(5, 2 - g.k) * g.F",
+    "y = math.perm(2 - g.k, 2) * g.F",
+    "y = np.histogram(x, bins=3, range=(3.0, g.F + 1))[0]",
+]
+
+
+@pytest.mark.parametrize("lines", REFUSED)
+def test_what_numpy_or_math_refuses_has_no_number(lines: str, tmp_path: Path) -> None:
+    """The formula that stands for it goes on: a number stood where the worksheet raises an error."""
+    assert_never_stale(lines, tmp_path)

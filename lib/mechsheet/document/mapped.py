@@ -1,11 +1,11 @@
-"""`map` and `filter` in formulas: what is computed for each element, and the elements that keep a condition."""
+"""`map`, `filter`, `np.r_` and `np.c_` in formulas: what is computed for each element, kept or put together."""
 
 import ast
 from collections.abc import Iterable
 
 
 def written_out(node: ast.expr) -> ast.expr:
-    """The comprehension that a call of `map` or `filter` is, without a list round it; anything else as it is.
+    """The comprehension or list that such a thing is, without a list round it; anything else as it is.
 
     >>> def of(text):
     ...     return ast.unparse(written_out(ast.parse(text, mode="eval").body))
@@ -13,6 +13,8 @@ def written_out(node: ast.expr) -> ast.expr:
     ('(2 * q for q in D)', '(f(t, s) for t, s in zip(x, y))')
     >>> of("filter(lambda q: q > a, D)"), of("filter(None, D)"), of("list(D)"), of("[*D]")
     ('(q for q in D if q > a)', '(x for x in D if x != 0)', 'D', 'D')
+    >>> of("np.r_[0, x, L]"), of("np.c_[x, y]"), of("np.r_[:L, 0:1:5j]")
+    ('[0, x, L]', '[[x, y]]', '[arange(0, L), linspace(0, 1, 5)]')
     """
     match node:
         case ast.Call(ast.Name("list" | "tuple"), [ast.expr() as of], []) | ast.List([ast.Starred(of)]):
@@ -28,7 +30,21 @@ def written_out(node: ast.expr) -> ast.expr:
         case ast.Call(ast.Name("filter"), [f, of], []):
             [one], condition = _of_each(f, 1, [of])
             return _each(one, one, of, condition)
+        case ast.Subscript(ast.Attribute(ast.Name("np" | "numpy"), "r_" | "c_" as kind), key):
+            row = ast.List([*map(_numbers, key.elts if isinstance(key, ast.Tuple) else [key])], ast.Load())
+            return row if kind == "r_" else ast.List([row], ast.Load())
     return node
+
+
+def _numbers(key: ast.expr) -> ast.expr:
+    """The call that gives the numbers of a slice, as many as an imaginary step says; anything else as it is."""
+    if not isinstance(key, ast.Slice) or not key.upper:
+        return key
+    start = key.lower or ast.Constant(0)
+    if isinstance(key.step, ast.Constant) and isinstance(key.step.value, complex):
+        return ast.Call(ast.Name("linspace"), [start, key.upper, ast.Constant(int(abs(key.step.value)))], [])
+    step = [key.step] if key.step else []
+    return ast.Call(ast.Name("arange"), [start, key.upper, *step], [])
 
 
 def _each(value: ast.expr, one: ast.expr, of: ast.expr, *conditions: ast.expr) -> ast.GeneratorExp:

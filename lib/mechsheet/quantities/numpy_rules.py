@@ -309,6 +309,12 @@ def _is_among(graph: Graph, x: Any, several: Any, assume_unique: bool = False, i
     return ~same if invert else same
 
 
+def _geometric(graph: Graph, start: Any, stop: Any, *count: Any) -> Any:
+    start, stop = lift(graph, start), lift(graph, stop)
+    start = choice(graph, start * stop == 0, np.nan, start)
+    return start * (stop / start) ** linspace(graph, 0.0, 1.0, *count)
+
+
 def _real(graph: Graph, x: Any) -> Any:
     return lift(graph, x).real
 
@@ -352,7 +358,7 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.linalg.multi_dot: products,
     **{f: transformed(f) for f in (np.fft.fft, np.fft.ifft, np.fft.rfft, np.fft.irfft)},
     np.logspace: lambda graph, *ends: 10.0 ** linspace(graph, *ends),
-    np.geomspace: lambda graph, start, stop, *count: start * (stop / start) ** linspace(graph, 0.0, 1.0, *count),
+    np.geomspace: _geometric,
     np.nanprod: lambda graph, x, axis=None: filled_up(graph, x, 1.0).reduced("prod", axis),
     np.nancumsum: lambda graph, x, axis=None: _so_far("sum")(graph, filled_up(graph, x, 0.0), axis),
     np.nanvar: known_variance, np.nanstd: lambda graph, *args, **rest: np.sqrt(known_variance(graph, *args, **rest)),

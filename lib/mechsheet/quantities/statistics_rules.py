@@ -46,7 +46,8 @@ def average(graph: Graph, x: Any, axis: Any = None, weights: Any = None) -> Any:
         weights = weights[(slice(None), *(None,) * (x.ndim - 1 - axis % x.ndim))]
     if axis is None:
         graph.go_together(*x.parts, *weights.parts, strictly=True)
-    return (x * weights).reduced("sum", axis) / (weights + 0 * x).reduced("sum", axis)
+    whole = (weights + 0 * x).reduced("sum", axis)
+    return (x * weights).reduced("sum", axis) / choice(graph, whole == 0, np.nan, whole)
 
 
 def known_mean(graph: Graph, x: Any, axis: Any = None) -> Any:
@@ -117,4 +118,5 @@ def histogram(graph: Graph, x: Any, bins: Any = 10, range: Any = None) -> Any:
         edges = choice(graph, part == 1, high, low + (high - low) * part)
     lower, upper = edges[:-1], edges[1:]
     below = choice(graph, np.arange(upper.count(0)) == upper.count(0) - 1, x[:, None] <= upper, x[:, None] < upper)
-    return choice(graph, (x[:, None] >= lower) & below, 1, 0).reduced("sum", 0), edges
+    some = choice(graph, (x[:, None] >= lower) & below, 1, 0).reduced("sum", 0)
+    return some if range is None else choice(graph, edges[0] <= edges[-1], some, np.nan), edges

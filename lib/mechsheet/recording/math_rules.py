@@ -75,15 +75,19 @@ def _combinations(n: Any, k: Any) -> Any:
 
 
 def _drawn(n: Any, k: Any, among: Callable[[Any], Any]) -> Any:
-    """``n`` factorial over what it is ``among``, of the rest that is not drawn; 0 where there are not so many."""
+    """``n`` factorial over what it is ``among``, of the rest that is not drawn; 0 where there are not so many.
+
+    Of numbers below zero there is none.
+    """
     graph = current.get()
-    n = lift(graph, n)
+    n, k = lift(graph, n), lift(graph, k)
     known = n <= _MOST
     if not known.value.all():
         raise NotRecorded(f"of more than {_MOST} there are more ways than a float takes")
     graph.see(known.reduced("all").re)
     rest = n - k
-    return whole(choice(graph, rest < 0, 0, np.floor(_factorial(n) / among(np.maximum(rest, 0)) + 0.5)))
+    some = choice(graph, rest < 0, 0, np.floor(_factorial(n) / among(np.maximum(rest, 0)) + 0.5))
+    return whole(choice(graph, (n >= 0) & (k >= 0), some, np.nan))
 
 
 def _hypot(*parts: Any) -> Any:

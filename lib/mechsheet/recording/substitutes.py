@@ -6,16 +6,13 @@ Nothing of the running program is exchanged: pages that are served at the same t
 """
 
 import builtins
-import os
 import sys
-import warnings
 from collections import Counter, OrderedDict, defaultdict, deque
 from collections.abc import Callable, Mapping
 from contextvars import ContextVar
 from copy import copy
 from functools import _lru_cache_wrapper, cache, lru_cache, partial
 from inspect import unwrap
-from io import StringIO
 from types import BuiltinFunctionType, FunctionType, GeneratorType, GenericAlias, ModuleType, SimpleNamespace
 from typing import Any
 
@@ -28,6 +25,7 @@ from mechsheet.quantities.node import Node
 from mechsheet.quantities.numpy_rules import arange, filled, linspace, simpson, trapezoid_so_far
 from mechsheet.quantities.once import once
 from mechsheet.quantities.polynomial_rules import polynomial
+from mechsheet.quantities.put_together import PutTogether
 from mechsheet.quantities.quantity import FUNCTIONS, Quantity, has_quantity, lift, quantities
 from mechsheet.quantities.refused import compared, of_library, of_numpy, of_python
 from mechsheet.quantities.sketch import Sketch, drawing
@@ -42,6 +40,7 @@ from mechsheet.recording.math_rules import MATH, STATISTICS
 from mechsheet.recording.own_modules import followed, is_own
 from mechsheet.recording.per_row import of_rows
 from mechsheet.recording.rewritten import NAMES, rebuilt
+from mechsheet.recording.unspoken import opened, unsaid, unspoken
 from mechsheet.worksheet import check, find, system, title
 from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.marimo_on_use import Marimo
@@ -125,6 +124,8 @@ def instead(value: Any) -> Any:
         return _each
     if value is np.poly1d:
         return polynomial
+    if value is np.r_ or value is np.c_:
+        return PutTogether(value)
     if value is Drawing:
         return drawing
     if isinstance(value, Drawing) and current.get().refuses:
@@ -132,8 +133,8 @@ def instead(value: Any) -> Any:
     if isinstance(value, FunctionType) and value in OF_OBJECTS:
         return OF_OBJECTS[value]
     room = str(getattr(value, "__module__", ""))
-    if (unspoken := _unspoken(value, room)) is not None:
-        return unspoken
+    if (quiet := unspoken(value, room)) is not None:
+        return quiet
     if isinstance(value, FunctionType | type) and room.startswith("mechsheet."):
         return _of_package(value, room)
     if room == "statistics" and value.__name__ in STATISTICS:
@@ -285,30 +286,6 @@ def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
     return instead(__import__(name, *args, **kwargs))
 
 
-def _unsaid(*_: Any, **__: Any) -> None:
-    """In place of what says something: the worksheet has said it already."""
-
-
-def _unspoken(value: Any, room: str) -> Any:
-    """In place of a stream, of a log or of what warns one that keeps it to itself; None in place of anything else."""
-    if value is sys.stdout or value is sys.stderr:
-        return StringIO()
-    if room != "logging":
-        return _unsaid if value is warnings.warn else None
-    logging = sys.modules["logging"]
-    quiet = logging.Logger("", level=1000)  # above all that is told
-    if isinstance(value, logging.Logger):
-        return quiet
-    name = getattr(value, "__name__", "")
-    telling = ("debug", "info", "warning", "error", "exception", "critical", "log")
-    return _unsaid if name in telling else (lambda *_: quiet) if name == "getLogger" else None
-
-
-def _opened(file: Any, mode: str = "r", *args: Any, **kwargs: Any) -> Any:
-    """A file, which is read; what the worksheet writes it has written already."""
-    return open(*(file, mode) if {*mode}.isdisjoint("wax+") else (os.devnull, mode.replace("x", "w")), *args, **kwargs)
-
-
 # An import inside a cell is one of what takes quantities too.
 BUILTINS = {
     **vars(builtins),
@@ -317,8 +294,8 @@ BUILTINS = {
     "sum": total,
     "any": some,
     "all": every,
-    "print": _unsaid,
-    "open": _opened,
+    "print": unsaid,
+    "open": opened,
 }
 
 
