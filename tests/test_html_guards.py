@@ -84,6 +84,13 @@ def test_only_what_rests_on_a_way_that_python_took_is_empty(blank: Page, tmp_pat
     assert {n for n, (_, why) in shown(blank, tmp_path / "a.html", sheet, "a=1.5").items() if why} == {"z"}
 
 
+def test_a_line_that_reads_what_is_not_known_is_named_once(blank: Page, tmp_path: Path) -> None:
+    """Its formula with numbers, which is not asked for, was "a text" that is not known."""
+    sheet = own(tmp_path, "o = np.argsort(-x)  # [-] order\nb = x[o]  # [-] in order")
+    shown(blank, tmp_path / "a.html", sheet, "F=0")
+    assert "not known: o, b (line" in (blank.locator(".ms-state").text_content() or "")
+
+
 def test_what_a_drawing_refuses_is_told(blank: Page, tmp_path: Path) -> None:
     """The worksheet has an error for it; the page drew on, with numbers beside the drawing."""
     drawn = "from mechsheet import Drawing\nwheel = Drawing().wheel(0j, g.a - 0.3)\ny = wheel and 2 * g.a  # [-] beside"

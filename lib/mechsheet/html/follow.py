@@ -264,9 +264,9 @@ class Follower:
             return ""
         told = [self._put_in(name, *x) for name, x in known.items()]
         spec: Spec = {"text": made.text, "signs": made.signs, "numbers": told, "at": line.position, **moved}
-        keys = [self.keys[node] for node in dict.fromkeys(self._asked)]
+        spec |= {"of": line.formula.name, "keys": [self.keys[node] for node in dict.fromkeys(self._asked)]}
         heads = (name.partition(".")[0] for name in known)
-        return self.mark("numbers", keys=keys, **spec, **self._named(*heads))
+        return self.mark("numbers", **spec, **self._named(*heads))
 
     def _put_in(self, name: str, value: complex, unit: str) -> Spec:
         """A number in a formula: the keys of its parts, or those of one that holds for the run alone."""
