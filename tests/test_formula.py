@@ -354,6 +354,11 @@ def test_what_is_no_number_has_no_unit(value):
     run(IMPORT + f"run = print\ngrade = {value}  # grade\nshown = typeset()")
 
 
+def test_how_a_text_is_shown_is_told():
+    with pytest.raises(SheetError, match=re.escape("it has no [unit], typeset(f'{grade}') shows it")):
+        run(IMPORT + "grade = '8.8'  # [-] grade\nshown = typeset()")
+
+
 def test_solve_block_is_typeset_as_given_and_find():
     names = run(
         IMPORT

@@ -420,6 +420,10 @@ def test_equations_that_take_no_arrays_are_taken_one_by_one():
 def test_fewer_or_more_equations_than_unknowns_are_refused():
     with pytest.raises(SheetError, match=r"1 equation for 2 unknowns x, y: they do not determine them"):
         find(lambda x, y: x + y, x=1.0, y=1.0)
+    with pytest.raises(SheetError, match=r"determine them: an array is one of as many problems, several are a tuple$"):
+        minerr(lambda x, y: np.array([1.0, 2.0, 4.0]) - x - y * np.arange(3), x=1.0, y=1.0)
+    with pytest.raises(ValueError, match=r"an equation is one number, several are a tuple$"):
+        minerr(lambda x: np.array([x, x - 1]), x=1.0)
     with pytest.raises(SheetError, match="2 equations for 1 unknown x: minerr finds where their squares are least"):
         find(lambda x: (x, x - 1), x=1.0)
 

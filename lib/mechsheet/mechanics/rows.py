@@ -45,7 +45,8 @@ def _of_shape(found: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
         return np.broadcast_to(found, shape)
     except ValueError:  # of numpy's, which does not say of what
         of = f"unknowns of shape {shape}" if shape else "one number"
-        raise ValueError(f"what is to be solved gives numbers of shape {found.shape} for {of}") from None
+        told = f"what is to be solved gives numbers of shape {found.shape} for {of}"
+        raise ValueError(f"{told}: an equation is one number, several are a tuple") from None
 
 
 def of_one(f: Callable[[Array], Any]) -> Parts:

@@ -94,7 +94,8 @@ def asked(
     m, n = len(words.equations), len(names)
     counted = f"{m} equation{'s' * (m > 1)} for {n} unknown{'s' * (n > 1)} {words.unknowns}"
     if m < n:
-        raise SheetError(f"{counted}: they do not determine them")
+        array = ": an array is one of as many problems, several are a tuple" if any(v.ndim for v in first) else ""
+        raise SheetError(f"{counted}: they do not determine them{array}")
     if m > n and not least:
         raise SheetError(f"{counted}: minerr finds where their squares are least")
     lost = np.any([np.broadcast_to(x, shape) for x in (void, *map(np.isnan, targets))], axis=0).reshape(-1)

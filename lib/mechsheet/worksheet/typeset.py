@@ -84,7 +84,10 @@ def no_number(row: Formula, value: Any) -> str:
         kind = np.asarray(value).dtype.kind
     except ValueError:  # of rows that differ in length
         kind = "O"
-    return "" if kind in "biufc" else f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]"
+    if kind in "biufc":
+        return ""
+    shown = f", typeset(f'{{{row.name}}}') shows it" if isinstance(value, str) else ""
+    return f"{row.name} = {ast.unparse(row.expression)} is no number: it has no [unit]{shown}"
 
 
 def _with_constants(row: Formula | Given, namespace: Mapping[str, Any], blocks: Mapping[str, str]) -> Formula | Given:
