@@ -331,6 +331,8 @@ def section_9():
       one nearest the guess, or else the middle, there is a value. Of several unknowns with guesses they take the
       worksheet's own first eighteen steps, with a value where these surely end in the same root. All else that is found
       holds for the exported inputs alone, and the front sheet says why.
+    - A spreadsheet takes two numbers for equal that agree in 15 digits. Where that decides, as of `3 * 0.1 <= 0.3`, its
+      condition goes the other way than Python's, and the page's.
     - Where there is no number, a mechanism that does not close, an input outside its limits, cells say `#N/A`.
     - What the cells cannot follow is grey, holds for the exported inputs and says `#N/A` for others; the front sheet
       and the run name its line and the reason.
