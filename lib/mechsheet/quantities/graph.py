@@ -75,7 +75,7 @@ class Graph(Lengths):
 
     def __init__(self, thin: int = 1, draws: bool = False, lists: bool = False, bodies: bool = False) -> None:
         super().__init__()
-        self.untold: list[str] = []  # why the present statement has numbers of now alone
+        self.untold = dict[Node, str]()  # numbers of now alone that the present statement has, and why
         self.thin, self.bodies, self.draws, self.lists = thin, bodies, draws, lists  # lists: inputs of any length
         self.refuses = draws or bodies  # what Python has an error for is told; cells have errors themselves
         self.listed = frozenset[int]()  # how many rows the tables have that list every so many

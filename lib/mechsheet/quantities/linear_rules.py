@@ -12,7 +12,7 @@ from mechsheet.quantities.arithmetic import absolute, choice, is_zero, only_wher
 from mechsheet.quantities.array_rules import ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.node import bottom_up
-from mechsheet.quantities.quantity import Quantity, lift, moved
+from mechsheet.quantities.quantity import Quantity, joined, lift, moved
 from mechsheet.quantities.truths import summed
 
 _MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
@@ -60,9 +60,10 @@ def diagonal(graph: Graph, x: Any, k: int = 0) -> Any:
     x = lift(graph, x)
     if x.ndim > 1:
         return np.diagonal(x, k)
-    if k:
-        raise NotRecorded("numpy's diag beside the diagonal")
-    return choice(graph, np.eye(len(x), dtype=bool), x[:, None], 0.0)
+    if not k:
+        return choice(graph, np.eye(len(x), dtype=bool), x[:, None], 0.0)
+    each = x[np.minimum(np.arange(len(x) + abs(k)), len(x) - 1)]
+    return choice(graph, np.eye(len(each), k=k, dtype=bool), each[:, None] if k > 0 else each, 0.0)
 
 
 def upper(graph: Graph, x: Any, k: int = 0) -> Any:
@@ -85,6 +86,20 @@ def matrix_power(graph: Graph, A: Any, n: Any) -> Any:
     for _ in range(count - 1):
         result = product(graph, result, A)
     return result
+
+
+def blocks(graph: Graph, *matrices: Any) -> Any:
+    """scipy's block_diag."""
+    parts = [lift(graph, matrix) for matrix in matrices]
+    parts = [part if part.ndim > 1 else part.reshape(1, -1) for part in parts]
+    ends = np.cumsum([(0, 0), *((len(part), len(part[0])) for part in parts)], axis=0)
+    flat = joined([part.reshape(-1) for part in parts], np.concatenate)
+    places, at = np.full(ends[-1], -1), 0
+    for (top, left), part in zip(ends.tolist(), parts, strict=False):
+        rows, columns = len(part), len(part[0])
+        places[top : top + rows, left : left + columns] = np.arange(at, at + rows * columns).reshape(rows, columns)
+        at += rows * columns
+    return choice(graph, places >= 0, flat[np.maximum(places, 0)], 0.0)
 
 
 def products(graph: Graph, arrays: Any) -> Any:
@@ -186,16 +201,43 @@ def determinant(graph: Graph, A: Any) -> Any:
     return lift(graph, sign)
 
 
-def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> list[Any]:
-    """Eigenvalues of symmetric matrices of two or three rows, in no order, by Jacobi's rotations: right to rounding.
+def cholesky(graph: Graph, A: Any, *, upper: bool = False) -> Any:
+    """numpy's cholesky; nothing of a matrix that is not positive definite."""
+    factor, exists = _triangle(graph, A, "U" if upper else "L")
+    whole = moved(lift(graph, [lift(graph, row) for row in factor]), (0, 1), (-2, -1))
+    whole = only_where(graph, exists, whole)
+    return np.swapaxes(whole, -1, -2) if upper else whole
+
+
+def _triangle(graph: Graph, A: Any, UPLO: str) -> tuple[list[list[Any]], Any]:
+    """Rows of the lower triangle of which a symmetric matrix is the square, and where it is positive definite."""
+    a, exists = _symmetric(graph, A, UPLO), lift(graph, True)
+    found = [[lift(graph, 0.0)] * len(a) for _ in a]
+    for j in range(len(a)):
+        for i in range(j, len(a)):
+            rest = reduce(operator.sub, (found[i][k] * found[j][k] for k in range(j)), a[i][j])
+            if i == j:
+                exists = exists & (rest > 0)
+            found[i][j] = np.sqrt(rest) if i == j else rest / found[j][j]
+    return found, exists
+
+
+def _symmetric(graph: Graph, A: Any, UPLO: str) -> list[list[Any]]:
+    """Rows of real symmetric matrices, of which one triangle is read."""
+    a = _rows(graph, A)
+    if any(x.im is not None for row in a for x in row):
+        raise NotRecorded("a symmetric matrix of complex numbers")
+    side = max if UPLO == "L" else min
+    return [[a[side(i, j)][i + j - side(i, j)] for j in range(len(a))] for i in range(len(a))]
+
+
+def _eigenvalues(graph: Graph, a: list[list[Any]]) -> Any:
+    """Eigenvalues of symmetric matrices of two or three rows, in order, by Jacobi's rotations: right to rounding.
 
     The closed form of three loses half of the digits where two are nearly the same.
     """
-    a = _rows(graph, A)
-    if len(a) > _OF_STRESS or any(x.im is not None for row in a for x in row):
-        raise NotRecorded(f"eigenvalues of a matrix of more than {_OF_STRESS} rows, or of a complex one")
-    if UPLO == "L":
-        a = [[a[max(i, j)][min(i, j)] for j in range(len(a))] for i in range(len(a))]
+    if len(a) > _OF_STRESS:
+        raise NotRecorded(f"eigenvalues of a matrix of more than {_OF_STRESS} rows")
     pairs = list(combinations(range(len(a)), 2))
     none = _NONE * reduce(operator.add, (absolute(a[i][j]) for i in range(len(a)) for j in range(i, len(a))))
     for p, q in pairs * (_SWEEPS if len(a) > 2 else 1):
@@ -208,25 +250,52 @@ def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> list[Any]:
             x, y = a[min(r, p)][max(r, p)], a[min(r, q)][max(r, q)]
             a[min(r, p)][max(r, p)], a[min(r, q)][max(r, q)] = c * (x - turn * y), c * (turn * x + y)
         a[p][q] = lift(graph, 0.0)
-    return [a[k][k] for k in range(len(a))]
+    return ordered(graph, moved(lift(graph, [a[k][k] for k in range(len(a))]), 0, -1))
+
+
+def eigenvalues(graph: Graph, A: Any, UPLO: str = "L") -> Any:
+    """numpy's eigvalsh."""
+    return _eigenvalues(graph, _symmetric(graph, A, UPLO))
+
+
+def eigenvalues_over(graph: Graph, A: Any, B: Any = None, *, lower: bool = True) -> Any:
+    """scipy's eigvalsh: of one matrix, or over another one, which is positive definite."""
+    side = "L" if lower else "U"
+    if B is None:
+        return eigenvalues(graph, A, side)
+    factor, exists = _triangle(graph, B, side)
+    half = _forward(factor, _symmetric(graph, A, side))
+    over = _forward(factor, [list(row) for row in zip(*half, strict=True)])
+    return only_where(graph, exists, _eigenvalues(graph, over))
+
+
+def _forward(factor: list[list[Any]], rows: list[list[Any]]) -> list[list[Any]]:
+    """What a lower triangle makes to some rows."""
+    found = list[list[Any]]()
+    for i, row in enumerate(rows):
+        rests = (reduce(operator.sub, (factor[i][k] * found[k][n] for k in range(i)), x) for n, x in enumerate(row))
+        found.append([rest / factor[i][i] for rest in rests])
+    return found
 
 
 class Eigen(Sequence[Any]):
-    """What numpy's eigh gives; of eigenvectors only those of now are known, for their sign is as its own steps end."""
+    """Eigenvalues and -vectors, of which only those of now are known: their sign is as the library's steps end."""
 
-    def __init__(self, matrix: Quantity, UPLO: Any) -> None:
-        self._matrix, self._of = matrix, UPLO
+    def __init__(self, values: Callable[[], Any], vectors: Callable[[], Any], of: Sequence[Quantity]) -> None:
+        self._values, self._vectors, self._of = values, vectors, of
 
     @property
     def eigenvalues(self) -> Any:
-        return eigenvalues_in_order(self._matrix.graph, self._matrix, self._of)
+        return self._values()
 
     @property
     def eigenvectors(self) -> Any:
-        graph = self._matrix.graph
-        under = [node for node in bottom_up(self._matrix.parts, ()) if node.op == "input"]
-        graph.untold.append("eigenvectors: their sign is as numpy's own steps end")
-        return Quantity(graph, graph.exported(under, np.linalg.eigh(self._matrix.value, self._of)[1]))
+        graph = self._of[0].graph
+        parts = [part for each in self._of for part in each.parts]
+        under = [node for node in bottom_up(parts, ()) if node.op == "input"]
+        found = graph.exported(under, self._vectors())
+        graph.untold[found] = "eigenvectors: their sign is as the library's own steps end"
+        return Quantity(graph, found)
 
     def __len__(self) -> int:
         return 2
@@ -235,13 +304,21 @@ class Eigen(Sequence[Any]):
         return (self.eigenvalues if key in (0, -2) else self.eigenvectors) if key in (0, 1, -1, -2) else ()[key]
 
 
-def eigenvalues_in_order(graph: Graph, A: Any, UPLO: str = "L") -> Any:
-    """numpy's eigvalsh."""
-    return ordered(graph, moved(lift(graph, eigenvalues(graph, A, UPLO)), 0, -1))
+def eigen(graph: Graph, A: Any, UPLO: Any = "L") -> Eigen:
+    """numpy's eigh."""
+    matrix = lift(graph, A)
+    return Eigen(lambda: eigenvalues(graph, matrix, UPLO), lambda: np.linalg.eigh(matrix.value, UPLO)[1], [matrix])
 
 
-def eigen(graph: Graph, A: Any, UPLO: str = "L") -> Eigen:
-    """numpy's eigh; scipy's of two matrices is another one."""
-    if not isinstance(UPLO, str):
-        raise NotRecorded("eigenvalues of a matrix over another one")
-    return Eigen(lift(graph, A), UPLO)
+def eigen_over(graph: Graph, A: Any, B: Any = None, *, lower: bool = True, eigvals_only: bool = False) -> Any:
+    """scipy's eigh: of one matrix, or over another one."""
+    if eigvals_only:
+        return eigenvalues_over(graph, A, B, lower=lower)
+    of = [lift(graph, matrix) for matrix in (A, B) if matrix is not None]
+
+    def vectors() -> Any:
+        from scipy.linalg import eigh  # on use: the worksheet has it
+
+        return eigh(*(matrix.value for matrix in of), lower=lower)[1]
+
+    return Eigen(lambda: eigenvalues_over(graph, A, B, lower=lower), vectors, of)

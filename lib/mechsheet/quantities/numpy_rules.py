@@ -28,10 +28,11 @@ from mechsheet.quantities.array_rules import (
 )
 from mechsheet.quantities.graph import Graph, Guard, NotRecorded
 from mechsheet.quantities.linear_rules import (
+    cholesky,
     determinant,
     diagonal,
     eigen,
-    eigenvalues_in_order,
+    eigenvalues,
     inverse,
     kron,
     lower,
@@ -343,9 +344,9 @@ _OF_FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.polyfit: polynomial_fit, np.dot: product, np.inner: product,
     np.vdot: lambda graph, x, y: product(graph, conjugate(lift(graph, x)).reshape(-1), lift(graph, y).reshape(-1)),
     np.outer: outer, np.linalg.solve: solution, np.linalg.det: determinant, np.linalg.norm: norm,
-    np.linalg.inv: inverse, np.cumulative_sum: _so_far("sum"),
+    np.linalg.inv: inverse, np.linalg.cholesky: cholesky, np.cumulative_sum: _so_far("sum"),
     np.sinc: lambda graph, x: choice(graph, lift(graph, x) == 0, 1.0, np.sin(np.pi * x) / (np.pi * x)),
-    np.linalg.eigvalsh: eigenvalues_in_order,
+    np.linalg.eigvalsh: eigenvalues,
     np.linalg.eigh: eigen,
     np.histogram: histogram,
     np.trace: lambda graph, A: lift(graph, A)[np.arange(len(A)), np.arange(len(A))].reduced("sum"),

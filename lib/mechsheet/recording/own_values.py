@@ -1,7 +1,7 @@
 """Values of a worksheet's own run, as far as a recording can take them for what it does not follow."""
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import partial
 from types import FunctionType, MethodType, SimpleNamespace
@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.node import Node, bottom_up
+from mechsheet.quantities.quantity import quantities
 from mechsheet.recording.memory import may_change
 from mechsheet.worksheet.check import Check
 from mechsheet.worksheet.shown import Shown
@@ -84,3 +86,9 @@ def _changes_others(value: Any) -> bool:
         case dict():
             return any(map(_changes_others, value.values()))
     return False
+
+
+def resting_on(nodes: Container[Node], names: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of what rests on any of some quantities, in order."""
+    parts = {name: [part for each in quantities(value) for part in each.parts] for name, value in names.items()}
+    return tuple(sorted(name for name, own in parts.items() if any(part in nodes for part in bottom_up(own, ()))))

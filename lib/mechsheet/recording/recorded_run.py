@@ -28,7 +28,7 @@ from mechsheet.recording.guarded import Guarded
 from mechsheet.recording.in_place import OTHER_NAME
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
 from mechsheet.recording.named import in_words
-from mechsheet.recording.own_values import changed_as, held, is_array, is_number, may_be_kept
+from mechsheet.recording.own_values import changed_as, held, is_array, is_number, may_be_kept, resting_on
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.shows import changes_held, under_others
 from mechsheet.recording.sifted import in_one
@@ -220,8 +220,8 @@ class Run(Guarded, OfPositions):
             if graph.meant.disturbed():
                 raise NotRecorded(CHANGED)
             if graph.untold:
-                alone = (n for n in final if getattr(getattr(self.names.get(n), "re", None), "op", "") == "exported")
-                self.recording.gaps.append(Gap(tuple(sorted(alone)), graph.line, graph.untold[0]))
+                alone = resting_on(graph.untold, {name: self.names.get(name) for name in final})
+                self.recording.gaps.append(Gap(alone, graph.line, next(iter(graph.untold.values()))))
                 graph.untold.clear()
             self.measure(touched, reads)
             differs = self.differing(stage, final)

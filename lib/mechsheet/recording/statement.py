@@ -270,9 +270,14 @@ def shared_names(code: CodeType) -> frozenset[str]:
 
 def taker(error: BaseException) -> str:
     """What of another package a statement had handed quantities to when an error was raised; "" for none."""
+    told = ""
     for frame, _ in walk_tb(error.__traceback__):
         package = str(frame.f_globals.get("__name__", "")).partition(".")[0]
-        if package in sys.modules and package not in _OWN:
-            of = type(frame.f_locals["self"]).__name__ if "self" in frame.f_locals else frame.f_code.co_name
-            return f"{package}'s {of}"
-    return ""
+        kind = type(frame.f_locals["self"]) if "self" in frame.f_locals else None
+        if package not in sys.modules or package in _OWN or (kind and kind.__module__.startswith("mechsheet.")):
+            continue
+        of = f"{package}'s {kind.__name__ if kind else frame.f_code.co_name}"
+        if "<locals>" not in frame.f_code.co_qualname:  # what decorates a function has no name of its own
+            return of
+        told = told or of
+    return told

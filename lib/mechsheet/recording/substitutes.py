@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from mechsheet import units
+from mechsheet.quantities import linear_rules
 from mechsheet.quantities.elementary import in_steps
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.node import Node
@@ -188,9 +189,13 @@ _PRINTING = frozenset({"leastsq", "curve_fit"})  # what a function of the worksh
 @cache
 def _of_scipy(f: Callable[..., Any]) -> Callable[..., Any]:
     """A function of scipy, by the rule of its own or of numpy's of the same name."""
-    rules = {"cumulative_trapezoid": trapezoid_so_far, "simpson": simpson, "trapezoid": FUNCTIONS[np.trapezoid]}
+    rules: dict[str, Callable[..., Any]] = {
+        "cumulative_trapezoid": trapezoid_so_far, "simpson": simpson, "trapezoid": FUNCTIONS[np.trapezoid],
+        "eigh": linear_rules.eigen_over, "eigvalsh": linear_rules.eigenvalues_over, "block_diag": linear_rules.blocks,
+        "cholesky": lambda graph, A, lower=False: linear_rules.cholesky(graph, A, upper=not lower),
+    }  # fmt: skip
     alike = getattr(np.linalg, f.__name__, None) if f.__module__.startswith("scipy.linalg.") else None
-    rule = FUNCTIONS.get(alike) or rules.get(f.__name__)
+    rule = rules.get(f.__name__) or FUNCTIONS.get(alike)
 
     def function(*args: Any, **kwargs: Any) -> Any:
         if f.__name__ in _PRINTING and args and isinstance(args[0], FunctionType):

@@ -1,0 +1,52 @@
+"""Matrices as machines need them: natural frequencies over a mass matrix, bands, blocks; for other inputs too."""
+
+from pathlib import Path
+
+import pytest
+from never_stale import assert_never_stale
+from own_worksheet import own, recorded
+
+OVER = "M = np.array([[1.0, 0.2], [0.2, g.a + 1]])\nK = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\n"
+FOLLOWED = [
+    f"from scipy.linalg import eigh\n{OVER}y = np.sqrt(eigh(K, M, eigvals_only=True))",
+    f"from scipy.linalg import eigvalsh\n{OVER}y = eigvalsh(K, M - np.eye(2) * (g.a + 0.1))",  # nothing for some
+    (
+        "from scipy.linalg import eigvalsh\nM = np.diag([1.0, g.a + 1, 3.0]) + 0.3 * (np.eye(3, k=1) + np.eye(3, k=-1))"
+        "\nK = np.array([[2 * g.F, -g.F, 0], [-g.F, g.F + 1, 0.5], [0, 0.5, 2]])\ny = eigvalsh(K, M)"
+    ),
+    "from scipy.linalg import eigvalsh\ny = eigvalsh([[2 * g.F, 9.0], [-g.F, g.F]], [[g.a, 7.0], [0.1, 2]])",
+    "from scipy.linalg import eigvalsh\ny = eigvalsh([[g.F, 0.5], [9.0, g.F]], [[g.a, 0.1], [7.0, 2]], lower=False)",
+    "y = np.linalg.cholesky(np.array([[g.F + 3, 9.0], [g.a, g.a + 3]])).ravel()",
+    "y = np.linalg.cholesky(np.array([[g.F - 2, 0.5], [0.5, g.a]])).ravel()",  # none of some
+    "y = np.linalg.cholesky(np.array([[g.F + 4, 1, 0.5], [1, g.a + 3, 0.2], [0.5, 0.2, 4]]), upper=True).ravel()",
+    "from scipy.linalg import cholesky\ny = cholesky(np.array([[g.F + 3, 1], [9.0, g.a + 3]])).ravel()",
+    "from scipy.linalg import cholesky\ny = cholesky(np.array([[g.F + 3, 9.0], [1, g.a + 3]]), lower=True).ravel()",
+    "from scipy.linalg import block_diag\ny = block_diag(np.eye(2) * g.F, [[g.a, 2.0]], 3.0 * g.F, [1, g.a]).ravel()",
+    "K = 2 * np.diag([g.F] * 3) - np.diag([g.a] * 2, 1) - np.diag([g.a] * 2, -1)\ny = np.linalg.solve(K, [1, 0, g.F])",
+    "y = np.diag(x * g.a, 2).ravel()",
+]
+EIGEN = "K = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\nw, V = np.linalg.eigh(K)\n"
+
+
+@pytest.mark.parametrize("lines", FOLLOWED)
+def test_matrices_follow(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        (f"{EIGEN}y = w", "line 38, V: eigenvectors"),
+        (f"from scipy.linalg import eigh\n{OVER}w, V = eigh(K, M)\ny = w", "line 40, V: eigenvectors"),
+        ("y = np.linalg.eigh(np.array([[2 * g.F, -g.F], [-g.F, g.F]]))[1][0] / 2", "line 37, y: eigenvectors"),
+        (
+            "from scipy.optimize import least_squares\ny = least_squares(lambda z: z - g.F, [1.0]).x",
+            "scipy's least_squares",
+        ),
+    ],
+)
+def test_what_is_of_now_alone_is_named(lines: str, told: str, tmp_path: Path) -> None:
+    """What is computed of eigenvectors was "what it changes", and a function of scipy was called "inner"."""
+    assert_never_stale(lines, tmp_path)
+    assert told in str(recorded(own(tmp_path, lines))[1].gaps[0])
