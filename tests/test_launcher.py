@@ -85,6 +85,18 @@ def test_a_command_that_is_asked_for_help_gives_it(command: str, capsys: pytest.
         assert f"\n  {command} NAME" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("command", ["edit", "serve"])
+def test_the_help_of_the_page_tells_its_own_options_first(
+    command: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There stood marimo's alone, of a command of another name and without the password."""
+    monkeypatch.setattr(launcher, "call", lambda *_, **__: 0)
+    assert launcher.main([command, "guide", "--help"]) == 0
+    told = capsys.readouterr().out
+    assert told.startswith(f"  {command} [NAME]") and f"such as                         {command} hitch" in told
+    assert ("--password-file" in told) == (command == "serve") and "  index" not in told
+
+
 def test_ctrl_c_before_a_run_is_watched_is_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -73,6 +73,9 @@ def main(argv: "list[str] | None" = None) -> int:
         say(contents() + HELP)
         return 0 if command else 2
     if command in ("edit", "serve"):
+        if not {"-h", "--help"}.isdisjoint(options):
+            told = "".join(re.findall(rf"^  {command} .*\n(?:    .*\n)*", HELP, re.MULTILINE))
+            say(f"{told}\nOPTIONS are those of marimo too, which tells of a command of its own:\n\n")
         name, *options = options if options and not options[0].startswith("-") else ["", *options]
         return page(command, [known(name)] if name else [], options)
     if command in ("run", "html", "design", "index", "compare", "rename"):
@@ -289,9 +292,7 @@ def new(name: str, like: str = "") -> int:
                 shutil.copy(str(file), str(folder))
     else:
         text = (here / "run" / "new_worksheet.txt").read_text(encoding="utf-8").replace("TITLE", title)
-    style = next(
-        style for style in (folder / "page.css", ours / "page.css", here / "page" / "page.css") if style.exists()
-    )
+    style = next(path for path in [each / "page.css" for each in (folder, ours, here / "page")] if path.exists())
     if style.parent != folder:
         shutil.copy(str(style), str(folder))
     path.write_text(text, encoding="utf-8")
@@ -312,9 +313,8 @@ def call(command: "list[str]", cwd: "Path | None" = None, settings: "dict[str, s
     said otherwise, numpy's library of matrices has one thread: those here are small, and to start and to await others
     takes a fifth of a run.
     """
-    usual = {"OPENBLAS_NUM_THREADS": "1"}
     always = {"PYTHONUTF8": "1", "_MARIMO_CONFIG_OVERLOAD_RUNTIME_AUTO_INSTANTIATE": "true"}
-    environ = {**usual, **os.environ, **always, **(settings or {})}
+    environ = {"OPENBLAS_NUM_THREADS": "1", **os.environ, **always, **(settings or {})}
     if command[:2] == [sys.executable, "-m"] and command[2].startswith("mechsheet.") and is_utf8():
         os.environ.update(environ)
         return here(*command[2:])
