@@ -91,6 +91,16 @@ def test_a_line_that_reads_what_is_not_known_is_named_once(blank: Page, tmp_path
     assert "not known: o, b (line" in (blank.locator(".ms-state").text_content() or "")
 
 
+def test_a_limit_is_no_key_of_what_is_not_known(blank: Page, tmp_path: Path) -> None:
+    """A check whose limit is a whole number was named where that is the number of something not known."""
+    limits = ", ".join(f'check("limit {k}", 2.0, at_least={k})' for k in range(10))
+    further = [f"from mechsheet import check\ntypeset({limits})"]
+    sheet = own(tmp_path, "w = np.i0(g.F) * 1.0  # [-] not followed", further=further)
+    shown(blank, tmp_path / "a.html", sheet, "F=4")
+    assert "not known: w (line" in (blank.locator(".ms-state").text_content() or "")
+    assert blank.locator(".ms-check").count() == 10
+
+
 def test_what_a_drawing_refuses_is_told(blank: Page, tmp_path: Path) -> None:
     """The worksheet has an error for it; the page drew on, with numbers beside the drawing."""
     drawn = "from mechsheet import Drawing\nwheel = Drawing().wheel(0j, g.a - 0.3)\ny = wheel and 2 * g.a  # [-] beside"

@@ -231,7 +231,7 @@ function computed() {
 }
 
 function gapOf(spec, results) {
-  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, spec.limit];
+  const keys = [...(spec.keys ?? []), ...(spec.columns ?? []).map(column => column.key), `found ${spec.key}`, ...(spec.own ? [] : [spec.limit])];
   return keys.map(key => results.gaps[key]).find(Boolean) ?? spec.why;
 }
 
