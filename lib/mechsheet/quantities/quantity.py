@@ -35,7 +35,8 @@ METHODS = frozenset({
 class Quantity(Operators):
     """A quantity of a worksheet, real or complex, that takes part in arithmetic and in numpy's functions."""
 
-    __slots__ = ("__weakref__", "base", "graph", "im", "re", "ways")  # the last of one of several arrays alone
+    __slots__ = ("__weakref__", "base", "graph", "im", "places", "re", "ways")  # the last of one of several alone
+    places: Any  # flat, of its elements in the base; ... where these are all of them
 
     def __init__(self, graph: Graph, re: Node, im: Node | None = None, *, base: Any = None) -> None:
         self.graph, self.re, self.im = graph, re, im
@@ -202,13 +203,12 @@ class Quantity(Operators):
 
     def rearranged(self, f: Callable[..., Values], *args: Any, **kwargs: Any) -> "Quantity":
         """What a function that only moves elements makes of it: what it does with their positions."""
-        order = np.arange(prod(self.extent)).reshape(self.extent)
-        moved = Moved(f, args, tuple(kwargs.items()))
+        order, moved = np.arange(prod(self.extent)).reshape(self.extent), Moved(f, args, tuple(kwargs.items()))
         position = moved(order)
         index = np.asarray(position, order="C")
         result = self.whole().each(lambda node: self.graph.take(node, index, moved))
         if np.ndim(position) and owner(position) is owner(order):
-            result.base = self
+            result.base, result.places = self, index
         return result
 
     def whole(self) -> "Quantity":

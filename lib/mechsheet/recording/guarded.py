@@ -28,7 +28,7 @@ class Guarded:
         elif isinstance(value, Quantity) and value.dtype != bool and any(p.op != "constant" for p in value.parts):
             kept = self.while_same(value, guards)
         if kept is not value:  # though the same array
-            kept.base, self.names[name] = value, kept
+            kept.base, kept.places, self.names[name] = value, ..., kept
 
     def while_same(self, x: Quantity, rests: Iterable[Guard]) -> Quantity:
         """A quantity while Python sees the same, else no number."""

@@ -2,7 +2,7 @@
 
 import ast
 from collections import ChainMap
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from types import CodeType
@@ -18,17 +18,16 @@ from mechsheet.quantities.of_lists import CHANGED
 from mechsheet.quantities.quantity import Quantity, has_quantity, is_literal, lift
 from mechsheet.quantities.selected import Selected
 from mechsheet.quantities.sketch import Drawn, Sketch
-from mechsheet.quantities.unrepeatable import Unrepeatable
 from mechsheet.quantities.written import Said, Written
-from mechsheet.recording import exactly, setting_up, showing, statement
+from mechsheet.recording import setting_up, showing, statement
 from mechsheet.recording.by_size import decided
 from mechsheet.recording.comprehended import of_cell
 from mechsheet.recording.given import given
-from mechsheet.recording.guarded import Guarded
 from mechsheet.recording.in_place import OTHER_NAME
+from mechsheet.recording.leaving_out import LeavingOut
 from mechsheet.recording.memory import Memory, changes, names_of, sets_of_others, shared_by
-from mechsheet.recording.named import in_words
-from mechsheet.recording.own_values import changed_as, held, is_array, is_number, may_be_kept, resting_on
+from mechsheet.recording.one_array import of_one_array, taken_apart
+from mechsheet.recording.own_values import changed_as, is_array, resting_on
 from mechsheet.recording.positions import OfPositions
 from mechsheet.recording.shows import changes_held, under_others
 from mechsheet.recording.sifted import in_one
@@ -36,7 +35,6 @@ from mechsheet.recording.stage import Stage
 from mechsheet.recording.substitutes import Module, instead, shared, staged
 from mechsheet.worksheet.cells import Cell, Worksheet
 from mechsheet.worksheet.drawing import Drawing
-from mechsheet.worksheet.errors import as_written
 from mechsheet.worksheet.lines import Formula, of_setup, rebound
 from mechsheet.worksheet.no_inputs import beforehand, inputs_of
 from mechsheet.worksheet.title import Mark, Slider
@@ -46,7 +44,7 @@ _PLACES = {"argmax", "argmin", "argsort"}
 _MADE = "what it says is no text that is recorded"
 
 
-class Run(Guarded, OfPositions):
+class Run(LeavingOut, OfPositions):
     """One run of a worksheet's cells, statement by statement."""
 
     def __init__(
@@ -94,6 +92,7 @@ class Run(Guarded, OfPositions):
         last = {name: n for n, fact in enumerate(facts) for name in fact.touched}
         twice = len(last) < sum(len(fact.touched) for fact in facts)
         self.rebound = rebound(self.sheet, cell.lines) if twice else []
+        self.of_cell, self.compared_later = frozenset(last), dict[str, None]()
         for n, (line, fact) in enumerate(zip(lines, facts, strict=True)):
             later = {name for name, end in last.items() if end > n}
             self.to_change = frozenset[str]().union(*(fact.in_place for fact in facts[n + 1 :]))
@@ -101,6 +100,8 @@ class Run(Guarded, OfPositions):
                 continue
             if not self.apart(stage, line, later):
                 self.step(stage, line.lineno, fact, later)
+        if stale := self.differing(stage, [name for name in self.compared_later if name in self.names]):
+            self.lose(stage, stale, set(), NotRecorded(", ".join(stale) + _DIFFERS))
         self.decide(stage, last)
         for name in dict.fromkeys([*(n for n in cell.code.co_names if n in self.lines), *cell.gives]):
             self.recording.define(cell.section, name, self.shown(name), self.lines)
@@ -196,7 +197,6 @@ class Run(Guarded, OfPositions):
         codes = [facts.code, *(f.__code__ for f in before.functions)]
         changed = [*facts.touched, *chain.from_iterable(map(statement.shared_names, codes))]
         touched = dict.fromkeys(name for name in changed if not isinstance(self.names.get(name), Module))
-        final = {name for name in touched if name not in later and not name.startswith("_")}
         rests, shown = (
             {guard.holds: guard for name in sorted(names) for guard in self.looked.get(name, ())}
             for names in (reads, reads if facts.heard == facts.loaded else self.read(facts.heard))
@@ -206,17 +206,29 @@ class Run(Guarded, OfPositions):
         arrays = (x for x in map(self.names.get, facts.in_place) if isinstance(x, np.ndarray | Quantity))
         held = (x for x in map(self.names.get, facts.within) if getattr(x, "ndim", 0) != 1)  # else of numbers
         others = Memory.sharing(self.names, [*arrays, *held]).difference(touched)
+        seen = {frozenset(guard.holds for guard in self.looked.get(n, ())) for n in (*facts.changed, *others)}
+        may = others and others <= self.of_cell and len(seen) == 1  # else it is another one for other inputs
+        may = may and (facts.at_once or reads.isdisjoint(others))
+        apart = taken_apart(graph, self.names, facts.changed, others, {*facts.changed, *reads}) if may else None
+        beside_it = others if apart else set[str]()
+        touched |= dict.fromkeys(beside_it)
+        final = {name for name in touched if name not in later and not name.startswith("_")}
+        several = of_one_array(final, self.to_change, self.namespace)
+        final -= several
+        self.compared_later = dict.fromkeys([*(n for n in self.compared_later if n not in final), *several])
         handed = under if sets_of_others(*codes) else under_others(facts.shows, self.names, under)
         reached = Memory.sharing(self.names, map(self.names.get, handed)).difference(touched)  # a function may change
         altered = facts.in_place | handed | reached  # names of arrays that may be others now
         differs: list[str] = []
         try:
-            if others or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
-                raise NotRecorded(OTHER_NAME) if others else self.lost[min(gone)]
+            if (others and not apart) or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
+                raise NotRecorded(OTHER_NAME) if others and not apart else self.lost[min(gone)]
             for name in facts.calls:
                 if name in facts.renamed or statement.is_own(name, self.names, self.namespace):
                     raise NotRecorded(f"{name} is another function here than Python's own")
             exec(facts.code, self.names)
+            if apart:
+                apart.put_together(self.names)
             if graph.meant.disturbed():
                 raise NotRecorded(CHANGED)
             if graph.untold:
@@ -275,7 +287,7 @@ class Run(Guarded, OfPositions):
             if isinstance(made, Slider) and name != showing.HERE:  # it rests where the worksheet has it
                 own = self.namespace.get(name, made)
                 self.names[name] = showing.slid(self.recording, name, made, own) if graph.draws else own
-            former = self.looked.get(name, ()) if name in facts.former else ()
+            former = self.looked.get(name, ()) if name in facts.former or name in beside_it else ()
             inputs = self.recording.inputs.values() if name in unknown else ()
             self.looked[name] = *rests.values(), *former, *self.while_are(inputs)
             self.hold(name, self.looked[name])
@@ -343,77 +355,6 @@ class Run(Guarded, OfPositions):
         if not alone:
             self.names |= setting_up.made_otherwise(self.graph, reads, self.names, self.sheet.common)
 
-    def keep(
-        self, stage: Stage, touched: Iterable[str], final: set[str], reason: NotRecorded, rests_on: list[Node]
-    ) -> None:
-        """The numbers of the worksheet's own run in place of a recording."""
-        graph = self.graph
-        graph.work = 0
-        stage.forget()
-        own = [self.namespace.get(name) for name in touched]
-        lasting = graph.thin == 1 and final.issuperset(touched) and not isinstance(reason, Unrepeatable)
-        if lasting and not rests_on and all(map(is_number, own)):
-            for name, number in zip(touched, own, strict=True):  # the same for all inputs
-                self.names[name], self.looked[name] = exactly.by_itself(graph, number), ()
-            return
-        guards = self.while_are(rests_on)
-        if not final or not final.issuperset(touched) or any(held(self.namespace.get(name)) for name in final):
-            if not (isinstance(reason, Unrepeatable) and reason in self.lost.values()):  # what rests on that is known
-                public = [name for name in touched if not name.startswith("_")]
-                self.recording.leave_out(public, graph.line, as_written(str(reason)))
-            for guard in guards:
-                self.note(guard)
-        known = [name for name in touched if name in final and may_be_kept(name, self.namespace)]
-        if isinstance(reason, Unrepeatable):
-            self.passing |= {n: stage.kept(self.namespace[n], rests_on) for n in known if n in self.lines}
-            known = []
-        kept = {name: stage.kept(self.namespace[name], rests_on) for name in known}
-        for name in touched:
-            self.looked[name] = guards
-            if isinstance(value := kept.get(name), Quantity):  # which has numbers where these hold alone
-                self.chosen |= dict.fromkeys(value.parts, frozenset(guard.holds for guard in guards))
-                self.looked[name] = guards if value.ndim else ()  # another array may be longer
-            if name in kept:
-                self.names[name] = kept[name]
-            else:
-                self.names.pop(name, None)
-                self.lost[name] = reason
-                if self.to_change - {name}:  # which may be other names of it
-                    self.looked[name] = self.while_are(self.recording.inputs.values())
-
-    def aliasing(self, ids: set[int], altered: Set[str], unseen: Set[str]) -> Iterator[tuple[set[str], NotRecorded]]:
-        """Names that hold what is kept of a statement, where it may be what has changed under another name, and why."""
-        for names, _, containers, reason in self.aliases if ids or altered or unseen else ():
-            if not (containers.isdisjoint(ids) and names.isdisjoint(unseen)):
-                yield {name for name in names if Memory(self.values([name]), self.names).containers()}, reason
-            if not names.isdisjoint(altered):
-                yield {name for name in names if Memory(self.values([name]), self.names).arrays}, reason
-
-    def lose(self, stage: Stage, names: Iterable[str], later: set[str], reason: NotRecorded) -> None:
-        """Names whose values a statement has changed, or may have changed, nobody knows how."""
-        every = [*self.recording.inputs.values()]
-        if shown := sorted(name for name in names if name in self.lines):
-            self.recording.leave_out(shown, self.graph.line, as_written(str(reason)))
-        for name in names:
-            self.looked[name] = self.while_are(every)
-            if name not in later and may_be_kept(name, self.namespace):
-                self.names[name] = stage.kept(self.namespace[name], every)
-            else:
-                self.names.pop(name, None)
-                self.lost[name] = reason
-
-    def why(self, error: BaseException, reads: frozenset[str]) -> NotRecorded:
-        """Why a statement cannot be recorded."""
-        known = [self.lost[name] for name in sorted(reads) if name in self.lost]
-        if known and isinstance(error, NameError):
-            return next((reason for reason in known if isinstance(reason, Unrepeatable)), known[0])
-        if isinstance(error, NotRecorded):
-            taker = "" if isinstance(error, Unrepeatable) else statement.taker(error)
-            return NotRecorded(taker) if taker else error.with_traceback(None)
-        if isinstance(error, AttributeError) and error.obj is None:  # which what shows gives here
-            return NotRecorded(f"it goes on with the {error.name} of a table, figure or check that it shows")
-        return NotRecorded(f"it does not run with recorded quantities ({in_words(error)})")
-
     def differing(self, stage: Stage, names: Iterable[str]) -> list[str]:
         """Names whose recorded numbers are not the worksheet's own."""
         return [x for x in names if not stage.same(self.names.get(x), self.namespace.get(x), x in self.lines)]
@@ -431,10 +372,6 @@ class Run(Guarded, OfPositions):
             reached.add(self.values(waiting))
             waiting = set[str]().union(*(shared_by(f.__code__) for f in reached.functions[known:])) - found
         return frozenset(found), reached
-
-    def values(self, names: Iterable[str]) -> Iterator[Any]:
-        """The values of some names, but for the inputs."""
-        return (self.names.get(name) for name in names if name not in self.asked)
 
     def leaves(
         self, facts: statement.Statement, reads: frozenset[str], codes: Iterable[CodeType], before: Memory

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mechsheet.recording.forms import as_choice
+from mechsheet.recording.forms import as_choice, changed_in_place
 from mechsheet.recording.memory import operations
 from mechsheet.recording.rewritten import compiled
 from mechsheet.recording.shows import shows
@@ -48,6 +48,8 @@ class Statement(NamedTuple):
     parts: frozenset[str]  # attributes that it reads, of whatever
     whole: bool  # whether it hands on the inputs as a whole
     in_place: frozenset[str]  # names whose values it changes in place where these are arrays
+    changed: frozenset[str]  # of these names those that it binds to nothing else
+    at_once: bool  # whether it changes them once all that it reads is read
     within: frozenset[str]  # names of what holds arrays that it changes in place
     shows: tuple[tuple[str, int], ...]  # names whose elements it may change by names of its own
     former: frozenset[str]  # names that may be what they were before, or are made of that
@@ -77,6 +79,8 @@ def facts(statement: ast.stmt, path: str, exact: bool = False) -> Statement:
         frozenset(n.attr for n in attributes),
         any(n.id == "g" and id(n) not in of_parts for n in names),
         frozenset(_of_worksheet(nodes, _in_place(nodes))),
+        frozenset[str]().union(*changed_in_place([statement])),
+        isinstance(statement, ast.Assign | ast.AugAssign) and len(getattr(statement, "targets", [0])) == 1,
         frozenset(_of_worksheet(nodes, _within(nodes))),
         tuple(shows(statement, nodes)),
         frozenset(former(statement)),
