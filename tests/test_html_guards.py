@@ -91,6 +91,31 @@ def test_a_line_that_reads_what_is_not_known_is_named_once(blank: Page, tmp_path
     assert "not known: o, b (line" in (blank.locator(".ms-state").text_content() or "")
 
 
+TRUTHS = """def ok(m):
+    for v in x:
+        if v > m:
+            return True
+    return False
+q = ok(g.a * 3)  # [-] of a function
+found = False
+for v in x:
+    if v > g.a * 3:
+        found = True
+        break
+f = found  # [-] of a loop
+r = next((True for v in x if v > g.a * 3), False)  # [-] of the first one
+b = g.k == 2 or g.a  # [-] one of two
+c = g.a > 1 and g.F  # [-] both
+z = 2 * g.a  # [-] twice"""
+
+
+@pytest.mark.parametrize("a", [0.5, 1.5, 9.0])
+def test_a_line_may_be_a_truth(a: float, blank: Page, tmp_path: Path) -> None:
+    """Where Python's code sets one to True or False the page ended, and showed the numbers of before."""
+    sheet = own(tmp_path, TRUTHS)
+    assert shown(blank, tmp_path / "a.html", sheet, f"a={a}") == shown(blank, tmp_path / "b.html", sheet, a=a)
+
+
 def test_a_limit_is_no_key_of_what_is_not_known(blank: Page, tmp_path: Path) -> None:
     """A check whose limit is a whole number was named where that is the number of something not known."""
     limits = ", ".join(f'check("limit {k}", 2.0, at_least={k})' for k in range(10))

@@ -102,7 +102,7 @@ def _result(scope: Scope, node: Node) -> str:
     text = scope.text(node)
     if len(node.shape) > 1:
         return f"shaped({text},{scope.shape(node)})"
-    return f"+{text}" if node.value.dtype == bool and not node.shape else text
+    return text if node.shape else f"+{text}"  # what Python counts as a number may be a truth here
 
 
 def _is_guarded(recording: Recording, node: Node) -> bool:

@@ -214,7 +214,12 @@ const showOne = (spec, n) => (spec.fixed && !broken(spec, state.results) ? showF
 function showNow(spec, element) {
   const results = state.results, why = broken(spec, results);
   if (why) return empty(spec, element, why);
-  grey(element, show[spec.kind](spec, element, results) ? "" : gapOf(spec, results) ?? UNKNOWN);
+  try {
+    grey(element, show[spec.kind](spec, element, results) ? "" : gapOf(spec, results) ?? UNKNOWN);
+  } catch (error) { // all else follows
+    console.error(error);
+    empty(spec, element, FAILED);
+  }
 }
 
 // Why the worksheet would show something else; undefined where it would not.
