@@ -465,3 +465,28 @@ REFUSED = [
 def test_what_numpy_or_math_refuses_has_no_number(lines: str, tmp_path: Path) -> None:
     """The formula that stands for it goes on: a number stood where the worksheet raises an error."""
     assert_never_stale(lines, tmp_path)
+
+
+LACKING = "w = np.log(x - g.a)\n"  # of which some are none
+ENDLESS = "w = 1 / (x - x[1] * (g.F > 3))\n"  # of which one is infinite
+NUMBERLESS = [
+    *(f"{LACKING}y = {of}" for of in (
+        "np.sort(w)", "np.sort(w[:4])", "np.median(w)", "np.median(w[:4])", "np.percentile(w, 90)",
+        "np.argsort(w, kind='stable')", "np.searchsorted([0.0, 1.0, 2.0], w)", "np.digitize(w, [0.0, 1.0, 2.0])",
+        "np.heaviside(w, 0.5)", "np.gradient(w)", "np.gradient(w, g.F)", "np.fmin(w, 0.5)", "np.isnan(w)",
+    )),
+    *(f"{ENDLESS}y = {of}" for of in (
+        "np.isinf(w)", "np.isnan(w) + 2 * np.isfinite(w)", "np.fmax(w, 2.0)", "np.fmin(-w, 2.0)", "np.allclose(w, w)",
+    )),
+    "y = np.linalg.det([[g.F - 3.25, 1.0], [g.F - 3.25, 2.0]])",
+    "y = np.arctan2(0 - (g.k - 3), -g.a)",
+    "y = np.angle(-g.F - 1j * (g.k - 3))",
+    "y = np.sqrt(-g.F - 1j * (g.k - 3)).imag",
+]  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of numpy's, of these numbers
+@pytest.mark.parametrize("lines", NUMBERLESS)
+def test_what_is_none_or_infinite_or_zero_is_as_numpy_has_it(lines: str, tmp_path: Path) -> None:
+    """What is no number stood among those in order, no infinite one was, and 0 - x was -0."""
+    assert_never_stale(lines, tmp_path)

@@ -141,7 +141,7 @@ def test_reasons_name_what_users_wrote(tmp_path: Path) -> None:
     for lines, said in (
         ("z = np.zeros(3)\nnp.add.at(z, [0, 0], g.F)\ny = z", "at of a function is not followed"),
         ("A = np.zeros((2, 3))\nA.T[0, 1] = g.F\ny = A[1]", "has no name of its own"),
-        ("y = x * 2.0\nL = [y]\nw = L[0]\nw[w > 1.1] = 1.1", "y would differ from the worksheet"),
+        ("y = x * 2.0\nL = [y]\nw = L[0]\nw[w > 1.1] = 1.1", "an array is changed that has another name too"),
     ):
         _, recording = recorded(own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line"))
         assert said in recording.gaps[0].reason

@@ -473,7 +473,6 @@ GUARDED = [  # where other inputs change what there is
     "if g.F > 3:\n    v = g.F\n    kind = 'much'\nelse:\n    v = g.a\n    kind = 'some'\ny = v * len(kind)",
     "d = {}\nif g.F > 3:\n    d['x'] = g.a\ny = len(d) + g.F",
     "v = np.array([g.F, g.a])\nif v[0] > 3:\n    v[0] = 3.0\n    v[1] = v[0]\ny = v * 2",
-    "v = np.zeros(2)\nw = v\nif g.F > 3:\n    v[0] = g.a\ny = w + v + g.F",
     "row = [1.0, 2.0] if g.F > 3 else [g.a]\ny = len(row) * g.F",
     "v = 1.0\nwhile v < 3.1 * g.F:\n    v = v + len(f'{v:.0f}')\ny = v + g.F",
     "y = np.cumsum(x[x > g.F])[-1]",

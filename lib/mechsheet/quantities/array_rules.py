@@ -87,6 +87,11 @@ def to_sort(graph: Graph, x: Any, axis: Any) -> tuple[Quantity, int, int]:
     return x, axis, x.extent[-1]
 
 
+def may_lack(x: Quantity) -> bool:
+    """Whether some of the numbers may be none, which numpy puts behind all others; in cells it spreads."""
+    return x.graph.refuses or bool(np.isnan(x.value).any())
+
+
 def is_ranked(x: Quantity) -> bool:
     """Whether numbers are put in order by comparing each with all others, however many they are."""
     return is_any_length(x) and x.extent[0] <= SORTED
@@ -115,7 +120,10 @@ def order(graph: Graph, x: Any, axis: Any = -1, kind: Any = None, stable: Any = 
             return _now(x.value, axis, kind, stable)
         graph.see((~equal).reduced("all").re, why=_EQUAL)
     beside = number != number[:, None]  # a number only known within bounds may not be seen to be no less than itself
-    before: Any = ((other < one) & beside) | ((other == one) & (number < number[:, None]))
+    less, same = other < one, other == one
+    if may_lack(x):
+        less, same = less | (np.isnan(one) & ~np.isnan(other)), same | (np.isnan(one) & np.isnan(other))
+    before: Any = (less & beside) | (same & (number < number[:, None]))
     rank = choice(graph, before, 1, 0).reduced("sum", -1)
     there = choice(graph, rank[..., None, :] == number[:, None], number, 0)
     return moved(there.reduced("sum", -1), -1, axis)
@@ -238,7 +246,8 @@ def searched(graph: Graph, a: Any, v: Any, side: str = "left") -> Any:
     a, v = lift(graph, a), lift(graph, v)
     in_order(graph, a)
     compared(v)
-    return _rank(graph, a, v, strictly=side == "left")
+    found = _rank(graph, a, v, strictly=side == "left")
+    return choice(graph, np.isnan(v), a.count(0), found) if may_lack(v) else found
 
 
 def digitized(graph: Graph, x: Any, bins: Any, right: bool = False) -> Any:
@@ -277,10 +286,11 @@ def ordered(graph: Graph, x: Any, axis: Any = -1, kind: Any = None) -> Any:
         graph.see((x[..., :-1] <= x[..., 1:]).reduced("all").re)
         return moved(x, -1, axis)
     parts = [x[..., k] for k in range(count)]
+    least: Any = np.fmin if may_lack(x) else np.minimum
     for start in range(len(parts)):
         for k in range(start % 2, len(parts) - 1, 2):
             low, high = parts[k], parts[k + 1]
-            parts[k], parts[k + 1] = np.minimum(low, high), np.maximum(low, high)
+            parts[k], parts[k + 1] = least(low, high), np.maximum(low, high)
     return moved(lift(graph, parts), 0, axis)
 
 

@@ -347,21 +347,19 @@ class Graph(Lengths):
         args = source, tuple(groups), kind, Along(axis, so_far=True)
         return self._kept(("scan", source, kind, axis), "reduce", args, value, source.stretches)
 
-    # The operations below leave out what adds nothing: a reader looks for none of it.
+    # The operations below leave out what adds nothing: a reader looks for none of it. 0 - x is no -x, which may be -0.
 
     def add(self, a: Node, b: Node) -> Node:
+        if b.op == "neg":
+            return self.sub(a, b.args[0])
         for x, y in ((a, b), (b, a)):
             if is_number(x, 0) and self.alone(y, x):
                 return y
-        if b.op == "neg":
-            return self.sub(a, b.args[0])
         return self.fold("add", a, b)
 
     def sub(self, a: Node, b: Node) -> Node:
         if is_number(b, 0) and self.alone(a, b):
             return a
-        if is_number(a, 0) and self.alone(b, a):
-            return self.neg(b)
         return self.add(a, b.args[0]) if b.op == "neg" else self.fold("sub", a, b)
 
     def alone(self, node: Node, number: Node) -> bool:

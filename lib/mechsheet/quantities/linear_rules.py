@@ -129,8 +129,10 @@ def _rows(graph: Graph, A: Any) -> list[list[Any]]:
     return [[A[..., i, j] for j in range(size)] for i in range(size)]
 
 
-def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], Any, bool]:
+def _eliminated(graph: Graph, rows: list[list[Any]], exist: bool = True) -> tuple[list[list[Any]], Any, bool]:
     """Upper triangles of square matrices, the signs of their rows' orders, and whether steps were left out.
+
+    Where no pivot ``exist``s all below it are 0 too, and there is nothing to do, or else no number.
 
     The greatest pivots come first. Right sides that stand behind the matrices in their rows are changed with them. An
     element that is 0 whatever the inputs are takes no step: of frames and chains of springs most are.
@@ -151,7 +153,7 @@ def _eliminated(graph: Graph, rows: list[list[Any]]) -> tuple[list[list[Any]], A
                 [choice(graph, greater, q, p) for p, q in pairs], [choice(graph, greater, p, q) for p, q in pairs]
             )  # fmt: skip
         for i in under:
-            part = rows[i][j] / rows[j][j]
+            part = rows[i][j] / rows[j][j] if exist else choice(graph, rows[j][j] == 0, 0.0, rows[i][j] / rows[j][j])
             rows[i] = [
                 p - part * q if k > j and not is_zero(q) else p
                 for k, (p, q) in enumerate(zip(rows[i], rows[j], strict=True))
@@ -195,7 +197,7 @@ def solution(graph: Graph, A: Any, b: Any) -> Any:
 
 
 def determinant(graph: Graph, A: Any) -> Any:
-    rows, sign, _ = _eliminated(graph, _rows(graph, A))
+    rows, sign, _ = _eliminated(graph, _rows(graph, A), exist=False)
     for i, row in enumerate(rows):
         sign = sign * row[i]
     return lift(graph, sign)

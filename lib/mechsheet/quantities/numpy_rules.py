@@ -223,7 +223,8 @@ def _gradient(graph: Graph, y: Any, x: Any = 1.0, axis: Any = None, edge_order: 
     slope = _difference(graph, y) / h
     start, end = slope[..., :-1], slope[..., 1:]
     bend = (end - start) / (h[..., 1:] + h[..., :-1])
-    inner, first, last = start + bend * h[..., :-1], slope[..., :1], slope[..., -1:]
+    first, last = slope[..., :1], slope[..., -1:]
+    inner = start + bend * h[..., :-1] if np.ndim(x) else (y[..., 2:] - y[..., :-2]) / (2 * x)
     if edge_order == 2:
         first, last = first - bend[..., :1] * h[..., :1], last + bend[..., -1:] * h[..., -1:]
     whole = _joined(np.concatenate)(graph, [first, inner, last], axis=-1)
@@ -262,7 +263,7 @@ def _clipped(graph: Graph, x: Any, low: Any = None, high: Any = None, min: Any =
 def _close(graph: Graph, x: Any, y: Any, rtol: float = 1e-5, atol: float = 1e-8) -> Any:
     x, y = lift(graph, x), lift(graph, y)
     graph.go_together(*x.parts, *y.parts, hidden=True)
-    return absolute(x - y) <= atol + rtol * absolute(y)
+    return (x == y) | (finite(y) & (absolute(x - y) <= atol + rtol * absolute(y)))
 
 
 def _near(graph: Graph, x: Any, y: Any, *, rel_tol: float = 1e-9, abs_tol: float = 0.0) -> Any:

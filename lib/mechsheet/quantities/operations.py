@@ -62,6 +62,13 @@ class Moved:
     def key(self) -> bytes:
         return pickle.dumps((self.f, self.args, self.named))
 
+    def shown(self, places: Values, alone: bool) -> Values | None:
+        """Places of elements that the array has which numpy gives; None where it may be a copy, by how the other lies.
+
+        One of one axis that shows no other one lies in one piece.
+        """
+        return places if alone or self.f not in (np.ravel, np.reshape) else None
+
     def keeps(self, axes: int) -> bool:
         """Whether a quantity of so many axes stays as it is, however long they are."""
         if self.f is getitem:

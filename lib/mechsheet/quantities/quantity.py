@@ -208,7 +208,7 @@ class Quantity(Operators):
         index = np.asarray(position, order="C")
         result = self.whole().each(lambda node: self.graph.take(node, index, moved))
         if np.ndim(position) and owner(position) is owner(order):
-            result.base, result.places = self, index
+            result.base, result.places = self, moved.shown(index, alone=self.base is None and self.ndim == 1)
         return result
 
     def whole(self) -> "Quantity":

@@ -4,25 +4,31 @@ from typing import Any
 
 import numpy as np
 
-from mechsheet.quantities.arithmetic import absolute, choice, square
-from mechsheet.quantities.array_rules import in_order, interpolated, ordered
+from mechsheet.quantities.arithmetic import absolute, choice, only_where, square
+from mechsheet.quantities.array_rules import in_order, interpolated, may_lack, ordered
 from mechsheet.quantities.graph import Graph, NotRecorded
 from mechsheet.quantities.quantity import is_any_length, lift, moved
 from mechsheet.quantities.ufunc_rules import finite
 
 
 def median(graph: Graph, x: Any, axis: Any = None) -> Any:
-    x = lift(graph, x)
-    x = ordered(graph, x.reshape(-1)) if axis is None else moved(ordered(graph, x, axis), axis, 0)
+    x = _in_order(graph, x, axis)
     count = x.count(0)
     low, high = (count - 1) // 2, count // 2
     return x[low] if isinstance(count, int) and low == high else (x[low] + x[high]) / 2
 
 
+def _in_order(graph: Graph, x: Any, axis: Any) -> Any:
+    """Numbers in order along the first axis; none where one of them is none."""
+    x = lift(graph, x)
+    x = ordered(graph, x.reshape(-1)) if axis is None else moved(ordered(graph, x, axis), axis, 0)
+    return only_where(graph, ~np.isnan(x[-1:]), x) if x.extent[0] and may_lack(x) else x
+
+
 def quantile(graph: Graph, x: Any, q: Any, axis: Any = None) -> Any:
     x, q = lift(graph, x), lift(graph, q)
     graph.see(((q >= 0) & (q <= 1)).reduced("all").re, why="a quantile is of a part from 0 to 1")
-    x = ordered(graph, x.reshape(-1)) if axis is None else moved(ordered(graph, x, axis), axis, 0)
+    x = _in_order(graph, x, axis)
     if x.ndim > 1 and q.ndim:
         raise NotRecorded("several of numpy's quantiles along an axis")
     if is_any_length(x) or x.ndim > 1:

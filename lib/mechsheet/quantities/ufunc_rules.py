@@ -104,6 +104,15 @@ def finite(x: Quantity) -> Any:
     return both[0] if len(both) == 1 else both[0] & both[1]
 
 
+def _is_nan(x: Quantity) -> Any:
+    """Whether it is no number: what an infinite one is made less by is finite."""
+    return ~finite(elementwise("min")(absolute(x), Quantity(x.graph, x.graph.constant(1.0))))
+
+
+def _is_infinite(x: Quantity) -> Any:
+    return ~finite(x) & ~_is_nan(x)
+
+
 def _number(x: Quantity, value: float) -> Quantity:
     """A number of the graph of ``x``, which takes no unit from it, as one that a line adds to it does."""
     return Quantity(x.graph, x.graph.constant(value, "-"))
@@ -120,7 +129,7 @@ def _copysign(x: Quantity, y: Quantity) -> Any:
 
 
 def _heaviside(x: Quantity, y: Quantity) -> Any:
-    return choice(x.graph, x > 0, 1.0, choice(x.graph, x < 0, 0.0, y))
+    return choice(x.graph, x > 0, 1.0, choice(x.graph, x < 0, 0.0, choice(x.graph, _is_nan(x), np.nan, y)))
 
 
 def _where_known(combine: str) -> Callable[[Quantity, Quantity], Any]:
@@ -128,7 +137,7 @@ def _where_known(combine: str) -> Callable[[Quantity, Quantity], Any]:
 
     def operation(x: Quantity, y: Quantity) -> Any:
         both = elementwise(combine)(x, y)
-        return choice(x.graph, finite(x), choice(x.graph, finite(y), both, x), y)
+        return choice(x.graph, _is_nan(x), y, choice(x.graph, _is_nan(y), x, both))
 
     return operation
 
@@ -150,8 +159,8 @@ _OF_UFUNCS: dict[Any, Callable[..., Any]] = {
     np.fabs: absolute, np.conjugate: conjugate, np.reciprocal: _reciprocal,
     np.exp: _exp, np.sin: _sin, np.cos: _cos, np.log: _log, np.sqrt: _sqrt, np.hypot: _hypot,
     np.square: square, np.copysign: _copysign,
-    np.heaviside: _heaviside, np.isnan: lambda x: ~finite(x), np.isfinite: finite,
-    np.isinf: lambda x: finite(x) & False, np.signbit: lambda x: x < 0,
+    np.heaviside: _heaviside, np.isnan: _is_nan, np.isfinite: finite, np.isinf: _is_infinite,
+    np.signbit: lambda x: x < 0,
     np.equal: _equal, np.not_equal: lambda x, y: ~_equal(x, y),
     np.fmax: _where_known("max"), np.fmin: _where_known("min"),
     np.exp2: lambda x: 2.0**x, np.expm1: _expm1, np.log1p: _log1p,

@@ -2,6 +2,7 @@
 
 import operator
 from collections.abc import Callable
+from copy import copy
 from functools import partial, reduce
 from types import FunctionType
 from typing import Any
@@ -102,6 +103,8 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
         graph.looked = looked
         if value is not None or other is not None:
             bool(condition)
+            if isinstance(value, ARRAYS) and isinstance(other, ARRAYS) and np.ndim(value) and np.ndim(other):
+                return one_of(copy(lift(graph, value)), value, other)
             taken(value, *(before.values() if other is UNBOUND else [other]))
         return value
     return both

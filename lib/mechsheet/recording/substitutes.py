@@ -291,6 +291,11 @@ def _imported(name: str, *args: Any, **kwargs: Any) -> Any:
     return instead(__import__(name, *args, **kwargs))
 
 
+def _in_memory(*_: Any) -> None:
+    """In place of `memoryview`, through which an array is changed that knows nothing of it."""
+    raise NotRecorded("a view of memory")
+
+
 # An import inside a cell is one of what takes quantities too.
 BUILTINS = {
     **vars(builtins),
@@ -301,6 +306,7 @@ BUILTINS = {
     "all": every,
     "print": unsaid,
     "open": opened,
+    "memoryview": _in_memory,
 }
 
 
@@ -325,6 +331,8 @@ def _takes(f: Callable[..., Any], plainly: Callable[..., Any] | None = None) -> 
             array = _array(*args, **kwargs)
             if isinstance(args[0], list | tuple) and isinstance(array, Quantity):
                 array.graph.of_lists.update(array.parts)
+            if f is np.ascontiguousarray and array.ndim > 1:  # which may be a copy
+                array, array.base = copy(array), array
             return copy(array) if f is np.array and kwargs.get("copy", True) else array
         if f in (np.zeros, np.ones, np.empty, np.full):
             shape, *value = args
