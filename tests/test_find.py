@@ -400,6 +400,24 @@ def test_what_is_no_equation_is_told_by_what_it_is(gives, told):
         find(gives, x=1.0, y=1.0)
 
 
+@pytest.mark.parametrize("guess", [None, 0.0, 1.3, 100.0])
+def test_of_two_roots_as_near_the_smaller_one_is_the_value(guess):
+    """Rounding chose: a check passed or failed by the last digit of an input."""
+    center = guess or 0.0
+    strength = np.linspace(0.1, 3.0, 300)
+
+    def f(x):
+        return (x - center) ** 2 * strength
+
+    given = {"equals": 0.7} | ({} if guess is None else {"guess": guess})
+    whole = find(f, center - 3.0, center + 3.0, **given).value
+    with values_only():
+        alone = find(f, center - 3.0, center + 3.0, **given).value
+    assert (whole < center).all() and np.array_equal(whole, alone)
+    both = find(lambda x, y: (x**2 + y**2 - 4 * strength, x * y - strength), x=(0, 4), y=(0, 4)).value
+    assert (both.x < both.y).all()
+
+
 # --- arrays of problems ------------------------------------------------------------------------------------------
 
 

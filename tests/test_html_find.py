@@ -61,6 +61,8 @@ ONE = {
     "steep": "lambda t: np.exp(50 * t) - np.exp(50 * g.a), 0, 2",
     "narrow dip": "lambda t: 1 - 2 * np.exp(-((t - g.a) * 100)**2), 0, 2",
     "root at zero": "lambda t: t * (t + 5), -1, 2",
+    "two as near": "lambda t: 1.7 * g.F * np.cos(t), -1.5, 1.5, equals=0.7 * g.a",
+    "two as near a guess": "lambda t: (t - 1.3)**2 * g.F, 0, 3, equals=0.7 * g.a, guess=1.3",
     "no interval": "lambda t: np.sqrt(t - g.a), guess=2.0, equals=3",
     "one end": "lambda t: np.log(t) * g.a, lo=0.1, guess=2.0",
     "no interval, no root": "lambda t: np.sqrt(t - g.a) + 1, guess=2.0",

@@ -20,6 +20,11 @@ function comb(n, f) {
 
 const least = a => a.reduce((x, v) => (v < x || x != x ? v : x), NaN);
 const largest = a => a.reduce((x, v) => (v > x || x != x ? v : x), NaN);
+// The first of those that are as near, by rounding, as the nearest one.
+const first_near = (off, play) => {
+  const nearest = off[first_least(off)];
+  return off.findIndex(distance => distance <= nearest + play(nearest));
+};
 const first_least = a => a.reduce((k, v, i) => (v < a[k] || (a[k] != a[k] && v == v) ? i : k), 0);
 const signs_differ = (a, b) => (a < 0 && b > 0) || (a > 0 && b < 0);
 const by_place = rows => rows.sort((a, b) => a[0] - b[0]);
@@ -245,7 +250,7 @@ function find(f, lo, hi, guess, equals = 0) {
     if (touch[k] && !again && !level) roots.push({value: x, residual: y - equals, bracket: [x, x]});
   });
   roots.sort((a, b) => a.value - b.value);
-  const nearest = roots[first_least(roots.map(root => abs(root.value - near)))];
+  const nearest = roots[first_near(roots.map(root => abs(root.value - near)), off => 2 ** -30 * off + 8 * EPS * abs(near))];
   return {
     ...none, ...nearest, roots, interval: [low, high], samples, jump,
     get evaluations() { return evaluations; },

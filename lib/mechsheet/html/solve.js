@@ -302,7 +302,7 @@ function solve(f, asked, factors, most, equals, unit) {
   const guessed = at.first.every((a, k) => a == at.last[k]);
   const known = (guessed ? from_guess : between)(real, at, unit);
   const off = ({x}) => max(...x.map((v, k) => abs(v - (at.first[k] / 2 + at.last[k] / 2)) / size[k]));
-  const best = unit ? known.lowest() : known.seen[first_least(known.seen.map(off))];
+  const best = unit ? known.lowest() : known.seen[first_near(known.seen.map(off), () => 2 ** -30)];
   const beside = unit || !best ? undefined : aside(real, at, best), chosen = beside ? undefined : best;
   const around = {...at, first: at.first.map((a, k) => a - size[k]), last: at.last.map((b, k) => b + size[k])};
   let others;

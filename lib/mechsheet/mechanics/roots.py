@@ -45,6 +45,7 @@ _BESIDE = 2.0 ** np.array([3, 4, 33])[:, None, None]  # floats off a root
 _SCALES = np.linspace(0, 1, 16)[:, None, None]  # from the width of a bracket to the farthest place beside it
 _FARTHEST = 2.0**33, 2.0**-20  # floats, or part of the interval
 _AFTER = 1.25 ** np.arange(-2, 18)[:, None, None]  # times the place where the slope has made up for a rise
+_TIED = 2.0**-30, 8 * EPS  # of a distance from the guess, and of the guess: two that differ by less are as near
 _EXPLAINED = 8  # times what slope and rounding tell: a cubic root is as steep as that
 _LEVEL = 4  # units in the last place: f that is nowhere farther off than that is the target everywhere
 _ROUNDING = 2.0**-16  # of the range of f: what steps by more is not rounded
@@ -151,22 +152,30 @@ def nearest_root(f: Counted, given: dict[str, Array]) -> tuple[Array, ...]:
     root, distance = np.full((4, near.size), np.nan), np.full(near.size, np.inf)
     for _ in i:
         k = least.argmin(0)[None]
-        active = np.isfinite(picked(least, k)) & (picked(least, k) <= distance)
+        active = np.isfinite(picked(least, k)) & (picked(least, k) <= distance + _play(distance, near))
         if not active.any():
             break
         new = _crossing(f, pieces, picked(i, k), active)[0][:, 0]
         further = np.abs(new[0] - near)
-        better = (further < distance) | ((further == distance) & (new[0] < root[0]))
+        tied = np.isfinite(root[0]) & (np.abs(further - distance) <= _play(distance, near))
+        better = np.where(tied, new[0] < root[0], further < distance)
         root, distance = np.where(better, new, root), np.where(better, further, distance)
         least[k[0], np.arange(near.size)] = np.inf
     return lo, hi, *root
 
 
 def _closest(roots: Array, near: Array) -> Array:
-    """Of all roots of each column, rows as in `Roots`, the one nearest to a place."""
-    nearest = np.fmin(np.abs(roots[0] - near), np.inf).argmin(0)
+    """Of all roots of each column, rows as in `Roots`, the one nearest to a place, the first one of those as near."""
+    off = np.fmin(np.abs(roots[0] - near), np.inf)
+    least = off.min(0)
+    nearest = (off <= least + _play(least, near)).argmax(0)
     closest: Array = roots[:, nearest, np.arange(near.size)]
     return closest
+
+
+def _play(distance: Array, near: Array) -> Array:
+    """By how much distances from the guess may differ by rounding."""
+    return _TIED[0] * distance + _TIED[1] * np.abs(near)
 
 
 @np.errstate(all="ignore")

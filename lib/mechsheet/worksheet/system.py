@@ -229,10 +229,14 @@ def solve(
     return solution
 
 
+_TIED = 2.0**-30  # of the sizes of the unknowns: two distances that differ by less are the same
+
+
 def _nearest(seen: Seen, place: Place) -> tuple[Array, Array, Array]:
-    """The solution nearest the middle of the places: unknowns, residuals and condition."""
+    """The solution nearest the middle of the places, the first of those as near: unknowns, residuals and condition."""
     off = np.abs(seen.x - (place.first / 2 + place.last / 2)[:, None]) / place.size[:, None]
-    near, p = np.where(np.isnan(off[0]), np.inf, off.max(0)).argmin(0), np.arange(off.shape[-1])
+    farthest = np.where(np.isnan(off[0]), np.inf, off.max(0))
+    near, p = (farthest <= farthest.min(0) + _TIED).argmax(0), np.arange(off.shape[-1])
     return seen.x[:, near, p], seen.residual[:, near, p], seen.condition[near, p]
 
 
