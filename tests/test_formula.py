@@ -354,6 +354,14 @@ def test_what_is_no_number_has_no_unit(value):
     run(IMPORT + f"run = print\ngrade = {value}  # grade\nshown = typeset()")
 
 
+def test_an_element_stands_for_a_field_where_the_line_has_as_many_alone():
+    """`np.dot(v, w)` was "= 1 4" in the formula with numbers: of all elements the first ones."""
+    lines = "v = np.array([1.0, 2.0])  # [-]\nw = 3 * v  # [-]\ns = np.dot(v, w)  # [-]\none = np.array([5.0])  # [-]"
+    numbers = run(IMPORT + f"import numpy as np\n{lines}\nshown = typeset()")["shown"].numbers
+    assert numbers.at("v", 1, "w") == (2.0, "-")
+    assert numbers.at("v", 1, "s") is None and numbers.at("one", 1, "s") == (5.0, "-")
+
+
 def test_how_a_text_is_shown_is_told():
     with pytest.raises(SheetError, match=re.escape("it has no [unit], typeset(f'{grade}') shows it")):
         run(IMPORT + "grade = '8.8'  # [-] grade\nshown = typeset()")

@@ -257,8 +257,8 @@ class Follower:
 
     def put_in(self, line: Line, **moved: Any) -> str:
         """Attribute of the formula of a line with numbers for its symbols; "" where it has none."""
-        at = self.numbers.at if self.numbers else lambda name, position: None
-        known = {name: x for name in reads(line.formula) if (x := at(name, line.position))}
+        at = self.numbers.at if self.numbers else lambda *_: None
+        known = {name: x for name in reads(line.formula) if (x := at(name, line.position, line.formula.name))}
         made = put_in(line.formula, {name: Read(unit, isinstance(x, complex)) for name, (x, unit) in known.items()})
         if made is None:
             return ""

@@ -112,7 +112,7 @@ def _switched(value: _Value) -> str:
 
 def _substituted(line: Formula, known: Numbers, position: int) -> str:
     """The right side with numbers for its symbols; nothing where it has none."""
-    found = ((name, known.at(name, position)) for name in reads(line))
+    found = ((name, known.at(name, position, line.name)) for name in reads(line))
     return _with_numbers(line, tuple((name, *at, type(at[0])) for name, at in found if at))  # 0 and 0j are not alike
 
 

@@ -149,8 +149,11 @@ class Numbers:
         """Whether something is the name of a line or an input of the worksheet."""
         return name in self.known or name in getattr(type(self.namespace.get("g")), "__units__", {})
 
-    def at(self, name: str, position: int) -> tuple[float | complex, str] | None:
-        """SI value of a name at one position of its field, and its unit; None where that is not known."""
+    def at(self, name: str, position: int, of: str) -> tuple[float | complex, str] | None:
+        """SI value of a name at one position of its field, and its unit; None where that is not known.
+
+        Nor of a field in a line ``of`` which another number of positions is: that takes more than one of these.
+        """
         head, dot, part = name.partition(".")
         value: Any = self.namespace.get(head)
         if dot:
@@ -164,8 +167,11 @@ class Numbers:
         field = np.asarray(value)
         if field.dtype.kind not in "iufc":  # texts and conditions are no numbers
             return None
-        inside = field.shape and field.shape[-1] > position
-        return (field[..., position].flat[0] if inside else field.flat[0]).item(), unit
+        if field.size == 1:
+            return field.item(), unit
+        if field.shape[-1:] != np.shape(existing(self.namespace.get(of)))[-1:]:
+            return None
+        return field[..., min(position, field.shape[-1] - 1)].flat[0].item(), unit
 
     def single(self, names: Iterable[str]) -> frozenset[str]:
         """Of names that end as that of a field over S does those that have no positions."""
