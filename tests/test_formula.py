@@ -181,10 +181,10 @@ def test_brackets_and_dots_stand_in_the_tree():
     a, b = Symbol("a"), Symbol("b")
     assert read("(a + b)*a") == Product(Brackets((Binary(a, "+", b),)), a)
     assert read("a*-b") == Product(a, Brackets((Signed("-", b),)), dot=True)
-    assert read("(a/b)**2") == Power(Brackets((Fraction(a, b),)), Number(2))
-    assert read("a/(b + 2)") == Fraction(a, Binary(b, "+", Number(2)))
+    assert read("(a/b)**2") == Power(Brackets((Fraction(a, b),)), Number(2, typed=True))
+    assert read("a/(b + 2)") == Fraction(a, Binary(b, "+", Number(2, typed=True)))
     assert read("phi34_S") == read("phi34(S)") == Apply(Symbol("φ", "34"), Brackets((Symbol("S"),)))
-    assert read("2*x", {"x": Measure(3.0, "m")}) == Product(Number(2), Measure(3.0, "m"), dot=True)
+    assert read("2*x", {"x": Measure(3.0, "m")}) == Product(Number(2, typed=True), Measure(3.0, "m"), dot=True)
     assert [is_high(read(text)) for text in ("a + b", "a/b", "f(a**2)", "1e-9")] == [False, True, True, True]
 
 
@@ -352,6 +352,12 @@ def test_what_is_no_number_has_no_unit(value):
     with pytest.raises(SheetError, match=text.replace("<cell>", ".*")):
         run(IMPORT + f"run = print\ngrade = {value}  # [-] grade\nshown = typeset()")
     run(IMPORT + f"run = print\ngrade = {value}  # grade\nshown = typeset()")
+
+
+def test_a_constant_has_the_digits_that_are_typed():
+    """Five of them stood, and the formula shown was another one: 1.226869 a - 1.2269 a as 1.2269 a - 1.2269 a."""
+    names = run(IMPORT + "a = 1.0  # [m]\nb = 1.226869 * a - 123456.7 * a + 7.6543212e-9 * a  # [m]\nshown = typeset()")
+    assert r"1.226869\,a - 123456.7\,a + 7.6543212 \cdot 10^{-9}\,a" in joined(names["shown"])
 
 
 def test_an_element_stands_for_a_field_where_the_line_has_as_many_alone():

@@ -49,7 +49,7 @@ class _Measuring(ast.NodeTransformer):
             while number is not None and op is ast.Mult and parts and (name := self.closed(parts[0][1])):
                 sign = "*" if parts.pop(0)[0] is ast.Mult else "/"
                 unit = f"{unit or '1' * (sign == '/')}{sign}{name}".removeprefix("*")
-            yield op, ast.Constant(Measure(number, unit)) if number is not None and unit else self.visit(part)  # type: ignore[arg-type]  # see above
+            yield op, ast.Constant(Measure(number, unit, True)) if number is not None and unit else self.visit(part)  # type: ignore[arg-type]  # see above
 
     def unit(self, node: ast.expr) -> str:
         """The unit that an expression is; "" where it has anything else in it."""

@@ -157,7 +157,7 @@ class _Reader:
             case complex(imag=size):
                 return Product(Number(size), Symbol("i"))
             case int() | float():
-                return Number(node.value)
+                return Number(node.value, typed=True)
             case Measure() | Text():
                 return node.value
         return Text(str(node.value))

@@ -17,17 +17,19 @@ RELATION, SUM, PRODUCT, SIGN, POWER, WHOLE = range(6)
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number of the formula itself."""
+    """A number of the formula itself, as it is ``typed`` or made of such."""
 
     value: float
+    typed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """A number in its unit, which stands for a symbol; complex for a point or a vector."""
+    """A number in its unit, which stands for a symbol or is ``typed``; complex for a point or a vector."""
 
     value: float | complex
     unit: str
+    typed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -264,10 +264,16 @@ def _matrix(node: Matrix) -> str:
     return _fenced("[", f"<mtable>{rows}</mtable>", "]")
 
 
+def _measure(node: Measure) -> str:
+    if node.typed and not isinstance(node.value, complex):
+        return numbers.as_typed(node.value, NUMBER) + numbers.behind(node.unit, NUMBER)
+    return numbers.quantity(node.value, node.unit, NUMBER)
+
+
 RULES: dict[type[Any], Callable[[Any], str]] = {
     Symbol: symbol,
-    Number: lambda node: _digits(numbers.usual(node.value, NUMBER)),
-    Measure: lambda node: _digits(numbers.quantity(node.value, node.unit, NUMBER)),
+    Number: lambda node: _digits((numbers.as_typed if node.typed else numbers.usual)(node.value, NUMBER)),
+    Measure: lambda node: _digits(_measure(node)),
     Text: lambda node: f"<mtext>{_ENDING.sub(_BLANK, escape(node.text))}</mtext>",
     Code: lambda node: f'<mtext class="code">{escape(node.text)}</mtext>',
     Function: _function,

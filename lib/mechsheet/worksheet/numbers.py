@@ -121,6 +121,20 @@ def usual(x: float, to: Notation) -> str:
     return to.power.format(mantissa.rstrip("0").rstrip("."), int(exponent)).replace("-", to.minus)
 
 
+def as_typed(x: float, to: Notation) -> str:
+    """A number with all the digits that are typed of it.
+
+    >>> as_typed(1.226869, AXIS), as_typed(123456.7, AXIS), as_typed(7.6543212e-9, AXIS), as_typed(27.50, AXIS)
+    ('1.226869', '123456.7', '7.6543212e−09', '27.5')
+    """
+    if not isfinite(x) or float(f"{x:.6g}") == x:
+        return usual(x, to)
+    if is_plain(x):
+        return np.format_float_positional(x, trim="-").replace("-", to.minus)
+    mantissa, exponent = np.format_float_scientific(x, trim="-").split("e")
+    return to.power.format(mantissa, int(exponent)).replace("-", to.minus)
+
+
 def is_plain(x: float) -> bool:
     """Whether the usual text of a finite number needs no power of ten."""
     return x == 0 or 1e-3 <= abs(x) < 1e6
