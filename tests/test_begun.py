@@ -26,6 +26,7 @@ KEEPING = {  # by the setup and the lines: that of F, with its slope
     "added to a list": ("LOG = []", "LOG.append(g.F)\ny = sum(LOG)  # [-] y", 1.0),
     "added to a list in a dictionary": ('LOG = {"F": []}', 'LOG["F"].append(g.F)\ny = sum(LOG["F"])  # [-] y', 1.0),
     "counted": ('STATE = {"n": 0}', 'STATE["n"] += 1\ny = g.F * STATE["n"]  # [-] y', 1.0),
+    "counted by a class": ("class C:\n    made = 0", "C.made += 1\nC.last = g.F\ny = C.last * C.made  # [-] y", 1.0),
     "an array": ("T = np.zeros(3)", "own = T\nown += g.F\ny = own.sum()  # [-] y", 3.0),
     "around a function": (
         "def made():\n    seen, n = [], 0\n    def f(v):\n        nonlocal n\n        n += 1\n        seen.append(v)\n"

@@ -44,3 +44,13 @@ def test_a_method_that_keeps_something_is_called_for_each_row(tmp_path: Path) ->
     path.write_text(written(SETUP, "xs: list[float] = [0.1, 0.5, 0.2]  # [-] points", lines))
     sheet = load(path)
     assert "running greatest" in write.page(sheet, sheet.inputs())
+
+
+def test_a_function_of_the_setup_that_keeps_something_is_called_for_each_row(tmp_path: Path) -> None:
+    """The same: what a function of the setup changes was not looked for."""
+    path = tmp_path / "own.py"
+    memo = "CACHE = {}\ndef square(v):\n    if v not in CACHE:\n        CACHE[v] = v**2\n    return CACHE[v]"
+    lines = "total = sum(square(v) for v in g.xs)  # [-] sum of squares\ntypeset()"
+    path.write_text(written(f"{SETUP}\n{memo}", "xs: list[float] = [0.1, 0.5, 0.2]  # [-] points", lines))
+    sheet = load(path)
+    assert "sum of squares" in write.page(sheet, sheet.inputs())

@@ -184,8 +184,7 @@ def _reached(
 ) -> Iterator[tuple[Any, bool, list[Any] | None]]:
     """What values reach, whether only its own code looks into it, and its parts.
 
-    Not what is ``held`` already or, of what only its own code looks into, ``beneath``; there it is added, by its
-    identity.
+    Not what is ``held`` already or, of what only its own code looks into, ``beneath``; by its identity it is added.
     """
     waiting, others = _to_look_at(values, hidden=False), current.get().meant.taken
     while waiting:
@@ -248,10 +247,16 @@ def _is_fixed(value: Any) -> bool:
     return (_of_this(value) and not isinstance(value, Sifted | OneOfLists)) or isinstance(value, _UNCHANGED)
 
 
+def _is_own(f: Any, own: Mapping[str, Any]) -> bool:
+    """Whether it is a function of the worksheet's cells, or of its setup, which has these names by themselves."""
+    known = f.__globals__ if isinstance(f, FunctionType) else {}
+    return known is own or ("recorded imported" in known and not stands_for_others(f))
+
+
 def _foreign(value: Any, own: Mapping[str, Any]) -> bool:
     """Functions, classes and what they are declared with that are none of the worksheet's own."""
     if isinstance(value, FunctionType):
-        return value.__globals__ is not own
+        return not _is_own(value, own)
     known = isinstance(value, type) and (value.__module__ in sys.modules or hasattr(value, "__inputs__"))
     return known or type(value).__module__ == "typing"
 
@@ -292,12 +297,10 @@ def _parts(value: Any) -> list[Any] | None:
             return list(value)
         case _ if isinstance(value, _MAPPINGS):
             return [*value, *value.values()]
+        case np.ndarray() if value.dtype == object:
+            return value.ravel().tolist()
         case np.ndarray():
-            return (
-                value.ravel().tolist()
-                if value.dtype == object
-                else [f"{value.dtype}{value.shape}".encode() + value.tobytes()]
-            )
+            return [f"{value.dtype}{value.shape}".encode() + value.tobytes()]
         case _ if type(value).__module__.partition(".")[0] == "pandas" and hasattr(value, "to_numpy"):
             return _of_frame(value)  # whose columns stand in what only its own code looks into
         case CellType():
@@ -433,7 +436,7 @@ def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
     waiting, seen = list(codes), set[CodeType]()
     methods = dict[str, list[Any]]()
     for name, f in (item for made in own.values() if isinstance(made, type) for item in vars(made).items()):
-        if isinstance(f, FunctionType) and f.__globals__ is own:
+        if _is_own(f, own):
             methods.setdefault(name, []).append(f)
     while waiting:
         code = waiting.pop()
@@ -443,5 +446,5 @@ def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
         if changes(code):
             return True
         named = [f for name in names_of(code) for f in (own.get(name), *methods.get(name, ()))]
-        waiting += [f.__code__ for f in named if isinstance(f, FunctionType) and f.__globals__ is own]
+        waiting += [f.__code__ for f in named if _is_own(f, own)]
     return False

@@ -40,6 +40,7 @@ class Begun:
                 waiting += [*(value.__defaults__ or ()), *(value.__kwdefaults__ or {}).values()]
                 waiting += [vars(value), *(value.__closure__ or ())]
             elif isinstance(value, type) and value.__module__ == module:
+                self.first.append((value, _attributes(value)))
                 waiting += vars(value).values()
             elif type(value).__module__ == module:
                 waiting.append(getattr(value, "__dict__", {}))
@@ -52,9 +53,20 @@ class Begun:
                     value[...] = first
             elif isinstance(value, CellType):
                 value.cell_contents = first
+            elif isinstance(value, type):
+                for name in _attributes(value).keys() - first.keys():
+                    delattr(value, name)
+                for name, own in first.items():
+                    if vars(value).get(name) is not own:
+                        setattr(value, name, own)
             elif _parts(value) != _parts(first):
                 value.clear()
                 value.update(first) if isinstance(value, dict | set) else value.extend(first)
+
+
+def _attributes(kind: type) -> dict[str, Any]:
+    """What a class holds under names of the worksheet's own."""
+    return {name: x for name, x in vars(kind).items() if not name.startswith("__")}
 
 
 def _parts(value: Any) -> list[Any]:
