@@ -96,6 +96,12 @@ def test_lines_have_a_legend_and_hovering_shows_their_values():
     assert "[N]; " in svg and "[%]" in svg
 
 
+def test_an_axis_says_where_a_number_has_no_unit_and_others_have():
+    """`w; eta [%]` stood at an axis of per cent, along which w = 0.5 was drawn at 0.5."""
+    w = Q("w", "-", np.linspace(0.5, 1.0, 6))
+    assert "[-]; " in drawn(w, Q("eta", "%", np.linspace(60.0, 80.0, 6))) and "[-]" not in drawn(w)
+
+
 def test_every_so_many_values_are_marked_by_points():
     """The positions that a table lists, on a curve through more of them; all of them would hide the line."""
     x = Q("S", "m", np.linspace(0.0, 1.0, 61))

@@ -204,12 +204,15 @@ def _stroke(i: int) -> Stroke:
 
 
 def _title(quantities: Sequence[Plotted], power: int) -> tuple[Symbol | str, ...]:
-    """Symbols and units of an axis: ``S [m]``, ``G56, GS6 [N]``; a power of ten goes before the unit."""
-    parts = list[Symbol | str]()
+    """Symbols and units of an axis: ``S [m]``, ``G56, GS6 [N]``; a power of ten goes before the unit.
+
+    Numbers without a unit say so where others have one.
+    """
+    parts, several = list[Symbol | str](), len({quantity.unit for quantity in quantities}) > 1
     for unit, members in groupby(quantities, key=lambda q: q.unit):
         for i, quantity in enumerate(members):
             parts += [", " if i else "; " if parts else "", read(stem(quantity.name))]
-        parts.append(_unit(unit, power))
+        parts.append(_unit(unit, power) or (" [-]" if several else ""))
     return tuple(part for part in parts if part)
 
 

@@ -40,7 +40,7 @@ function axisTitle(columns, power) {
   }
   const factor = power ? `10${raised(power)} ` : "";
   return groups.map(members => {
-    const unit = `${factor}${escaped(members[0].printed)}`.trim();
+    const unit = `${factor}${escaped(members[0].printed)}`.trim() || (groups.length > 1 ? "-" : "");
     return members.map(column => column.drawn).join(", ") + (unit ? ` [${unit}]` : "");
   }).join("; ");
 }
