@@ -55,6 +55,7 @@ DEFINED = {
     "kgf": GRAVITY, "tf": 1000 * GRAVITY, "lbf": POUND * GRAVITY, "kip": 1000 * POUND * GRAVITY,
     "psi": POUND * GRAVITY / INCH**2, "ksi": 1000 * POUND * GRAVITY / INCH**2, "bar": 10**5, "at": GRAVITY * 10**4,
     "hp": 550 * POUND * GRAVITY * 12 * INCH, "PS": 75 * GRAVITY, "Wh": 3600, "%": Fraction(1, 100),
+    "mil": INCH / 1000, "gal": 231 * INCH**3, "acre": 43560 * (12 * INCH) ** 2,
     "rad": 1, "deg": TURN / 360, "arcmin": TURN / 360 / 60, "arcsec": TURN / 360 / 3600, "rev": TURN, "rpm": TURN / 60,
 }  # fmt: skip
 COHERENT = ["m", "kg", "s", "A", "K", "mol", "cd", "N", "Pa", "J", "W", "Hz", "C", "V", "F", "ohm", "S", "Wb", "T", "H"]
@@ -62,7 +63,8 @@ COHERENT += ["lm", "lx", "Bq", "Gy", "Sv", "kat", "sr"]
 OF_SCIPY = {
     "inch": "inch", "ft": "foot", "yd": "yard", "mile": "mile", "nmi": "nautical_mile", "knot": "knot", "lb": "lb",
     "oz": "oz", "slug": "slug", "kgf": "kgf", "lbf": "lbf", "psi": "psi", "atm": "atm", "bar": "bar", "hp": "hp",
-    "L": "liter", "deg": "degree", "arcmin": "arcminute", "arcsec": "arcsecond", "min": "minute",
+    "mil": "mil", "gal": "gallon", "acre": "acre", "L": "liter", "deg": "degree",
+    "arcmin": "arcminute", "arcsec": "arcsecond", "min": "minute",
     "h": "hour", "day": "day", "BTU": "Btu", "cal": "calorie_IT", "g": "gram", "t": "metric_ton",
 }  # fmt: skip
 PREFIXES = {
@@ -78,7 +80,7 @@ def test_every_unit_is_that_of_its_definition():
     prefixed = (
         {p + n for n, prefixes in definitions.PREFIXED.items() for p in prefixes} - DEFINED.keys() - set(COHERENT)
     )
-    assert simple - prefixed - definitions._own.keys() == {*DEFINED, *COHERENT, "atm", "mmHg", "cal", "BTU"}
+    assert simple - prefixed - definitions._own.keys() == {*DEFINED, *COHERENT, "atm", "mmHg", "inHg", "cal", "BTU"}
     assert {name: parse(name).factor for name in COHERENT} == dict.fromkeys(COHERENT, 1)
     assert {name: parse(name).factor for name in DEFINED} == {name: float(x) for name, x in DEFINED.items()}
 

@@ -28,7 +28,8 @@ from mechsheet.units.text import plain as plain
 _floats: tuple[float, ...]
 # fmt: off
 m, kg, s, A, K, mol, cd, N, Pa, J, W, Hz, C, V, F, ohm, S, Wb, T, H, lm, lx, Bq, Gy, Sv, kat, sr, g, L, l = _floats
-bar, Wh, t, min, h, day, degC, inch, ft, yd, mile, nmi, knot, lb, oz, slug, kgf, tf, lbf, kip, psi, ksi, atm = _floats
+bar, Wh, t, min, h, day, degC, inch, mil, ft, yd, mile, nmi, knot, acre, gal, inHg, lb, oz, slug, kgf, tf = _floats
+lbf, kip, psi, ksi, atm = _floats
 at, mmHg, hp, PS, cal, BTU, rad, deg, arcmin, arcsec, rev, rpm, qm, rm, ym, zm, am, fm, pm, nm, um, mm, cm = _floats
 dm, dam, hm, km, Mm, Gm, Tm, Pm, Em, Zm, Ym, Rm, Qm, qs, rs, ys, zs, fs, ps, ns, us, ms, cs, ds, das, hs, ks = _floats
 Ms, Gs, Ts, Ps, Es, Zs, Ys, Rs, Qs, qA, rA, yA, zA, aA, fA, pA, nA, uA, mA, cA, dA, daA, hA, kA, MA, GA, TA = _floats

@@ -38,7 +38,8 @@ N = kg*m/s**2; Pa = N/m**2; J = N*m; W = J/s; Hz = 1/s; C = A*s; V = W/A; F = C/
 T = Wb/m**2; H = Wb/A; lm = cd; lx = lm/m**2; Bq = 1/s; Gy = J/kg; Sv = J/kg; kat = mol/s; sr = rad
 g = 0.001 kg; L = 0.001 m**3; l = L; bar = 100000 Pa; Wh = 3600 J; t = 1000 kg
 min = 60 s; h = 3600 s; day = 86400 s; degC = K
-inch = 0.0254 m; ft = 12 inch; yd = 3 ft; mile = 5280 ft; nmi = 1852 m; knot = nmi/h
+inch = 0.0254 m; mil = 0.001 inch; ft = 12 inch; yd = 3 ft; mile = 5280 ft; nmi = 1852 m; knot = nmi/h
+acre = 43560 ft**2; gal = 231 inch**3; inHg = 25.4 mmHg
 lb = 0.45359237 kg; oz = 0.0625 lb; slug = lbf*s**2/ft
 kgf = 9.80665 N; tf = 1000 kgf; lbf = 4.4482216152605 N; kip = 1000 lbf
 psi = lbf/inch**2; ksi = 1000 psi; atm = 101325 Pa; at = kgf/cm**2; mmHg = 133.322387415 Pa
@@ -65,7 +66,8 @@ _MEANT = {
     "bar": "bar", "hertz": "Hz", "volt": "V", "ampere": "A", "revolution": "rev", "micron": "um", "kmh": "km/h",
     "newtonmeter": "N*m", "newtonmetre": "N*m",
     "lbm": "lb", "ozf": "lbf", "lbft": "lbf*ft", "ftlb": "lbf*ft", "inlb": "lbf*inch", "lbin": "lbf*inch",
-    "U": "rev", "upm": "rpm", "rps": "rev/s", "cps": "Hz", "torr": "mmHg", "gal": "L", "var": "V*A",
+    "U": "rev", "upm": "rpm", "rps": "rev/s", "cps": "Hz", "torr": "mmHg", "var": "V*A", "gpm": "gal/min",
+    "thou": "mil",
 }  # fmt: skip
 _PREFIX_WORDS = {"kilo": "k", "milli": "m", "mili": "m", "micro": "u", "centi": "c", "mega": "M", "giga": "G"}
 _LIKE = "write units as m, kN*m, rad/s**2 or 1/m"
