@@ -162,6 +162,7 @@ ROUNDED = """v = 0.29 * g.L / 0.35  # [-] speed
 cents = int(v * 100)  # [-] whole ones
 down = 45 * mm * g.L / 0.35 // (5 * mm) * 5  # [-] rounded down
 same = g.L * 0.3 == g.L * 0.1 * 3  # [-] whether they are equal
+many = np.histogram(np.array([0.1, 0.3, 0.5]) * (g.L / 0.35), [0.0, 0.1 * 3, 1.0])[0]  # [-] counted
 up = np.ceil(g.F / 500)  # [-] rounded up"""
 
 
@@ -174,7 +175,7 @@ def test_what_rounding_makes_whole_is_that_of_the_worksheet(
     path.write_text(written(f"{SETUP}\nfrom mechsheet.units import mm", GIVEN, ROUNDED, "Rounded"))
     run = as_script(path)
     told = {line.split(":")[1].partition(", ")[2] for line in run.stdout.splitlines() if "by rounding alone" in line}
-    assert {"cents", "same"} <= told and "up" not in told, run.stdout
+    assert {"cents", "same", "many"} <= told and "up" not in told, run.stdout
     book = tmp_path / "rounded.xlsx"
     same, other = recalculated_all([book, edit(book, {"L": 0.36, "F": 1700.0}, tmp_path / "edited.xlsx")])
     assert not [*lines_apart(same, Values(book))]

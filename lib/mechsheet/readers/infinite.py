@@ -33,7 +33,8 @@ def lose(recording: Recording) -> None:
     lines = (line.node for lines in recording.lines.values() for line in lines)
     shown = [*lines, *recording.shown()]
     nodes = [*bottom_up(shown, ())]
-    beside = {node for node in nodes if node.op in _WHOLE and _is_beside(node)}
+    counted = _counted(nodes)
+    beside = {node for node in nodes if (node.op in _WHOLE or node in counted) and _is_beside(node)}
     behind = lost(shown) if any(map(_is_infinite, nodes)) else ()
     recording.lost = {node: passes_over(node) for node in behind} | dict.fromkeys(beside, True)
     for told, why in ((recording.lost.keys() - beside, _WHY), (beside, _BESIDE)):
@@ -52,7 +53,7 @@ def _is_infinite(node: Node) -> bool:
 def _is_beside(node: Node) -> bool:
     """Whether it is by the rounding of its operands alone that a number is whole, or two compare as they do."""
     x, *others = (np.asarray(part.value, float) for part in node.args)
-    if node.op in _COMPARED:
+    if node.op in (*_COMPARED, *_ORDERED):
         size = np.maximum(np.abs(x), np.abs(others[0]))
         return bool(((np.abs(x - others[0]) <= numbers.ROUNDING * size) & (x != others[0])).any())
     x = x / others[0] if others else x
@@ -63,6 +64,23 @@ def _is_beside(node: Node) -> bool:
 
 _COMPARED = ("eq", "ne")  # pieces that others part are mostly alike where they meet
 _WHOLE = {"floor", "round", "mod", *_COMPARED}
+_ORDERED = ("lt", "le", "gt", "ge")
+
+
+def _counted(nodes: Iterable[Node]) -> set[Node]:
+    """Comparisons between two constants, as where numbers are counted: these are not alike where they meet."""
+    waiting = [node.args[0] for node in nodes if node.op == "where" and _are_unlike(*node.args[1:])]
+    found = set[Node]()
+    while waiting:
+        node = waiting.pop()
+        if node not in found and node.op in (*_ORDERED, *_MOVING, "and", "or", "not", "where"):
+            found.add(node)
+            waiting += [] if node.op in _ORDERED else node.operands
+    return {node for node in found if node.op in _ORDERED}
+
+
+def _are_unlike(x: Node, y: Node) -> bool:
+    return x.op == y.op == "constant" and not np.array_equal(x.value, y.value)
 
 
 def _named(recording: Recording, node: Node) -> Iterator[str]:
