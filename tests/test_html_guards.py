@@ -126,6 +126,14 @@ def test_a_limit_is_no_key_of_what_is_not_known(blank: Page, tmp_path: Path) -> 
     assert blank.locator(".ms-check").count() == 10
 
 
+def test_a_check_of_which_nothing_is_recorded_is_named(blank: Page, tmp_path: Path) -> None:
+    """Its name was made by Python of a number: it was not known, and nothing said so above."""
+    lines = "SIZE = {2: 4.77, 3: 6.47, 5: 8.16}\nd = min((d for d in SIZE if d >= g.F), default=5)\nlbl = 'M' + str(d)"
+    further = ["from mechsheet import check\ntypeset(check(f'thread {lbl}', SIZE[d], 100.0))"]
+    shown(blank, tmp_path / "a.html", own(tmp_path, lines, further=further), "F=4.5")
+    assert "not known: thread M3 (it holds" in (blank.locator(".ms-state").text_content() or "")
+
+
 def test_what_a_drawing_refuses_is_told(blank: Page, tmp_path: Path) -> None:
     """The worksheet has an error for it; the page drew on, with numbers beside the drawing."""
     drawn = "from mechsheet import Drawing\nwheel = Drawing().wheel(0j, g.a - 0.3)\ny = wheel and 2 * g.a  # [-] beside"

@@ -8,6 +8,7 @@ const told = await unpacked(document.getElementById("told").textContent);
 const shownBy = told.shown.map((spec, n) => document.querySelector(`[data-n="${n}"]`));
 const contentOf = element => element.tBodies?.[0] ?? element;
 const first = shownBy.map((element, n) => told.pictures[n] ?? contentOf(element).innerHTML);
+const ALONE = "it holds for the document's own inputs alone";
 const UNKNOWN = "not known for these inputs: it holds for the document's own";
 const FAILED = "the page ends with an error for these inputs: open the worksheet itself";
 const DRAWN = new Set(["chart", "drawing", "numbers"]);
@@ -313,7 +314,8 @@ function sum() {
 function lacking(results) {
   const found = new Map(results.guards.map(why => [why, new Set()]));
   told.shown.forEach((spec, n) => {
-    const why = broken(spec, results) ?? gapOf(spec, results), name = nameOf(spec, shownBy[n]);
+    const alone = spec.kind === "check" && !spec.keys ? ALONE : undefined; // of which nothing is recorded
+    const why = broken(spec, results) ?? gapOf(spec, results) ?? alone, name = nameOf(spec, shownBy[n]);
     if (why && name) found.set(why, (found.get(why) ?? new Set()).add(name));
   });
   ofOwn ??= numberless(evaluate({}));
