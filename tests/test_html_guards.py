@@ -134,6 +134,15 @@ def test_a_check_of_which_nothing_is_recorded_is_named(blank: Page, tmp_path: Pa
     assert "not known: thread M3 (it holds" in (blank.locator(".ms-state").text_content() or "")
 
 
+def test_a_slope_that_is_looked_at_in_fewer_places_says_so(blank: Page, tmp_path: Path) -> None:
+    """Its limit was another one as soon as an input was changed, and nothing said why."""
+    further = ["from mechsheet import check_slope\ntypeset(check_slope('cosine', np.cos(x), np.sin, x, 0.0, 9.0))"]
+    sheet = own(tmp_path, "v = 2 * g.F  # [-] twice", further=further)
+    for address, told in (("", ""), ("F=3", "at three of the positions")):
+        shown(blank, tmp_path / "a.html", sheet, address)
+        assert blank.locator(".ms-check .ms-note").inner_text() == told
+
+
 def test_what_a_drawing_refuses_is_told(blank: Page, tmp_path: Path) -> None:
     """The worksheet has an error for it; the page drew on, with numbers beside the drawing."""
     drawn = "from mechsheet import Drawing\nwheel = Drawing().wheel(0j, g.a - 0.3)\ny = wheel and 2 * g.a  # [-] beside"

@@ -343,8 +343,8 @@ class Follower:
             spec["title"] = wording.of_name(said, self.in_words, self.key, holds)
         if held is None:
             return self.mark("check", keys=None, **spec)
-        unit = check.unit if held.unit == "-" else held.unit
-        factor = 1.0 if held.unit == "-" else units.parse(held.unit).factor
+        unit, factor = (check.unit, 1.0) if held.unit == "-" else (held.unit, units.parse(held.unit).factor)
+        spec["where"] = held.where  # it looks, if at some positions alone
         limit = check.limit if held.limit.op == "constant" else None  # that of a scene prevails
         return self.mark(
             "check",

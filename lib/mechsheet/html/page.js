@@ -157,7 +157,7 @@ function judged(spec, results) {
   const told = agrees ? `within ${b}${spec.behind}` : `${a} ${sign} ${b}${spec.behind}`;
   const [needs, has] = spec.least ? [limit, residual] : [residual, limit];
   const part = needs >= 0 && has > 0 && limit > 0 && !spec.agreement ? needs / has : NaN, used = utilised(part);
-  return {kind, word: kind, compared: `: ${told}${used && `, ${used}`}`, reason: "", part};
+  return {kind, word: kind, compared: `: ${told}${used && `, ${used}`}`, reason: spec.where || "", part};
 }
 
 // What part of its limit a quantity takes, told apart from 100 %.
