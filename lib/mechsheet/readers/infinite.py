@@ -68,8 +68,9 @@ _ORDERED = ("lt", "le", "gt", "ge")
 
 
 def _counted(nodes: Iterable[Node]) -> set[Node]:
-    """Comparisons between two constants, as where numbers are counted: these are not alike where they meet."""
-    waiting = [node.args[0] for node in nodes if node.op == "where" and _are_unlike(*node.args[1:])]
+    """Comparisons by which numbers are counted: the counts are not alike where they meet."""
+    sums = [node.args[0] for node in nodes if node.op == "reduce" and node.args[2] == "sum"]
+    waiting = [node.args[0] for node in sums if node.op == "where" and _are_unlike(*node.args[1:])]
     found = set[Node]()
     while waiting:
         node = waiting.pop()

@@ -9,7 +9,13 @@ _SMALL, _MOST = 0.02, 5.0  # of one that is no more than so much of that of SI, 
 
 
 def taken(text: str, unit: str) -> str:
-    """How the number is taken, and what to write where it is meant otherwise."""
+    """How the number is taken, and what to write where it is meant otherwise.
+
+    >>> taken("42", "%"), taken("0.62", "%")
+    ('42 is taken as it stands: write 42 / 100', '0.62 is taken as it stands, and a limit in %, such as <= 100')
+    """
+    if unit == "%" and abs(float(text)) <= 1:
+        return f"{text} is taken as it stands, and a limit in %, such as <= 100"
     if unit == "%":  # which is no name in Python
         return f"{text} is taken as it stands: write {text} / 100"
     return f"{text} is taken in {numbers.in_text(si(unit))}: write {text} * {unit}"

@@ -281,7 +281,7 @@ def _columns(
             line = given or known[name]
         except KeyError:
             place = lines.on_one_way(frame.f_globals, name)
-            within = f"that at {place} stands within a loop, or not on all ways of a choice"
+            within = f"that at {place} stands within a loop, or not on all ways of a choice or a try"
             why = within if place else "such as # [m] meaning"
             refuse(SheetError(f"column {ast.unparse(node)}: no line declares {name} with its unit, {why}"))
         except SheetError as error:
