@@ -486,6 +486,7 @@ def test_random_cases_of_a_result_called_as_an_input_are_in_its_unit(tmp_path, c
 
 def test_cases_print_and_warn_of_nothing(tmp_path, capsys):
     more = "\nj = np.floor(g.F)  # [-] jumps\nprint('of a line', g.F)\nv = np.log(np.array([g.F - 2.5]))  # [-] none"
+    more += "\nw = np.where(np.array([1.0, -1.0]) * g.F > 0, g.F**2, np.inf)  # [-] one is infinite"
     with pytest.warns(RuntimeWarning, match="divide by zero") as warned:
         bands(off(tmp_path, 9, "± 1", "", more))
     assert len(warned) == 1 and capsys.readouterr().out.splitlines().count("of a line 2.5") <= 2

@@ -204,7 +204,7 @@ class Bands:
                 bends = True
             elif np.isnan(there[node][known]).any():
                 return ENDS
-            bends |= bool(np.any((np.abs(there[node] - node.value) > within) & known))
+            bends |= bool(np.any(np.abs(there[node][known] - node.value[known]) > within[known]))
         return BENDS if bends else ""
 
     def compared(self, residual: Residual) -> list[Node]:
