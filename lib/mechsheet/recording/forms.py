@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import count
 from string import Formatter
 
+from mechsheet.worksheet.altered import filled
 from mechsheet.worksheet.source import bound
 
 SCOPED = ast.NamedExpr, ast.Yield, ast.YieldFrom, ast.Await  # are not what they are inside a lambda
@@ -435,6 +436,8 @@ def changed_in_place(body: Iterable[ast.stmt]) -> tuple[set[str], set[str]]:
             case ast.Subscript(ast.Name(name), ctx=ast.Store()):
                 changed.add(name)
             case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "sort" | "fill"))):
+                changed.add(name)
+            case ast.Expr(value) if name := filled(value):
                 changed.add(name)
             case ast.AugAssign(ast.Name(name)):
                 added.add(name)

@@ -269,6 +269,26 @@ def arranged(old: Any, method: str, named: dict[str, Any], *args: Any) -> Any:
     return np.sort(array, *args, **named) if method == "sort" else np.full_like(array, *args, **named)
 
 
+def filled(old: Any, function: str, named: dict[str, Any], *args: Any) -> Any:
+    """``old`` after one of numpy's functions has put some numbers into it."""
+    if not has_quantity([old, named, *args]):
+        getattr(np, function)(old, *args, **named)
+        return old
+    graph = next(quantities([old, named, *args])).graph
+    graph.meant.gone += former([old])
+    array = lift(graph, old)
+    match function, args:
+        case "copyto", (new,):
+            return _put(array, ..., choice(graph, lift(graph, named.get("where", True)), new, array))
+        case "fill_diagonal", (new,) if array.ndim == 2 and not named and np.ndim(new) == 0:
+            return _put(array, ..., choice(graph, np.eye(*array.extent, dtype=bool), new, array))
+        case ("putmask" | "place", (holds, new)) if (one := lift(graph, new)).size == 1:
+            return _put(array, ..., choice(graph, lift(graph, holds), one.reshape(()), array))
+        case "put", (places, new) if array.ndim == 1 and not named:
+            return _put(array, places, new)
+    raise NotRecorded(f"numpy's {function} of these arguments")
+
+
 def outside(value: Any) -> Any:
     """What a function changes in place, which is no recorded array: none would be put for it."""
     if isinstance(value, Quantity) and value.ndim:
@@ -347,6 +367,6 @@ def part(number: Any, name: str, value: Any) -> Any:
 CALLS: dict[str, Any] = {
     "put": put, "placed": placed, "put_where": put_where, "part_of": part_of, "changed": changed, "settled": settled,
     "part": part, "former": former, "left": left, "arranged": arranged, "outside": outside, "held": held,
-    "live": live, "put_held": put_held, "changed_held": changed_held, "overwriting": overwriting,
+    "live": live, "filled": filled, "put_held": put_held, "changed_held": changed_held, "overwriting": overwriting,
 }  # fmt: skip
-CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged")}
+CALLS |= {f"own {change}": CALLS[change] for change in ("put", "placed", "put_where", "changed", "arranged", "filled")}

@@ -40,7 +40,8 @@ _METHODS = {  # which change what they are called of, in the middle of an expres
     "discard", "clear", "__setitem__",
 }  # fmt: skip
 _SETTING = {
-    f"recorded {change}" for change in ("put", "placed", "put_where", "changed", "arranged", "outside", "put_back")
+    *("recorded put", "recorded placed", "recorded put_where", "recorded changed", "recorded arranged"),
+    *("recorded filled", "recorded outside", "recorded put_back"),
 }
 _SETTING_HELD = {f"recorded {change}" for change in ("put_held", "changed_held")}
 _FIELD = type(vars(NamedTuple("_Named", [("field", int)]))["field"])
@@ -433,8 +434,7 @@ def changes(code: CodeType) -> bool:
 
 def may_change(codes: Iterable[CodeType], own: Mapping[str, Any]) -> bool:
     """Whether some code, or a function of the worksheet or of a class of its that it names, may change something."""
-    waiting, seen = list(codes), set[CodeType]()
-    methods = dict[str, list[Any]]()
+    waiting, seen, methods = list(codes), set[CodeType](), dict[str, list[Any]]()
     for name, f in (item for made in own.values() if isinstance(made, type) for item in vars(made).items()):
         if _is_own(f, own):
             methods.setdefault(name, []).append(f)

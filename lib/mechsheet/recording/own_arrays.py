@@ -1,7 +1,8 @@
 """Arrays that are changed in place in ways of numpy's own, and those of a function that nobody else knows."""
 
 import ast
-from collections.abc import Set
+from collections.abc import Callable, Set
+from typing import Any
 
 from mechsheet.recording.exactly import OPERATIONS
 from mechsheet.recording.forms import call, index
@@ -78,6 +79,17 @@ def bound_anew(node: ast.stmt, name: str, change: str, *args: ast.expr) -> tuple
     known = ast.Name(name, ast.Load())
     bind = ast.Assign([ast.Name(name, ast.Store())], call(change, node, known, *args))
     return ast.copy_location(bind, node), ast.copy_location(ast.Expr(call("settled", node, known)), node)
+
+
+def filled_anew(node: ast.Expr, name: str, visited: Callable[[Any], Any]) -> tuple[ast.stmt, ast.Expr]:
+    """An array into which numpy puts what a call gives, or some numbers."""
+    value: Any = node.value
+    others = [keyword for keyword in value.keywords if keyword.arg != "out"]
+    if len(others) < len(value.keywords):
+        made = ast.copy_location(ast.Call(value.func, value.args, others), value)
+        return put(node, name, ast.Constant(...), visited(made))
+    named = ast.Call(ast.Name("dict", ast.Load()), [], [*map(visited, others)])
+    return bound_anew(node, name, "filled", ast.Constant(value.func.attr), named, *map(visited, value.args[1:]))
 
 
 def put_held(node: ast.Assign) -> ast.stmt:

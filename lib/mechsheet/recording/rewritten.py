@@ -71,6 +71,7 @@ from mechsheet.recording.ways import (
     unbound_left,
 )
 from mechsheet.worksheet import source
+from mechsheet.worksheet.altered import filled
 from mechsheet.worksheet.source import bound
 
 CALLS = choices.CALLS | ordered.CALLS | conditions.CALLS | in_place.CALLS | kept.CALLS | loops.CALLS
@@ -230,6 +231,8 @@ class _Rewriting(ast.NodeTransformer):
                 return own_arrays.bound_anew(
                     node, name, "arranged", ast.Constant(method), named, *map(self.visit, args)
                 )
+        if (name := filled(node.value)) and self.binds(name):
+            return own_arrays.filled_anew(node, name, self.visit)
         return self.generic_visit(node)
 
     def visit_AugAssign(self, node: ast.AugAssign) -> Any:

@@ -45,6 +45,19 @@ def altered(nodes: Iterable[ast.AST]) -> Iterator[ast.expr]:
                 yield array  # where it is to put what it gives
 
 
+_WHOLE = {"fill_diagonal", "copyto", "put", "place", "putmask"}  # of these those that a recording follows
+
+
+def filled(value: ast.expr) -> str:
+    """The name of the array into which a call lets numpy put numbers, all or some; "" of any other call."""
+    match value:
+        case ast.Call(ast.Attribute(ast.Name("np" | "numpy"), function), [ast.Name(name), *_]) if function in _WHOLE:
+            return name
+        case ast.Call(keywords=named) if not any(k.arg == "where" for k in named):
+            return next((k.value.id for k in named if k.arg == "out" and isinstance(k.value, ast.Name)), "")
+    return ""
+
+
 def overwrites(named: ast.keyword) -> bool:
     """Whether an argument lets a function of scipy put what it needs into the arrays that it is given."""
     return (named.arg or "").startswith("overwrite_")
