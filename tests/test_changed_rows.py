@@ -108,8 +108,8 @@ def test_numbers_of_an_array_are_added_to_without_a_change_of_it(tmp_path: Path)
 
 
 UNFOLLOWED = [
-    "z = np.ones(3)\nnp.putmask(z, z < 0.5, g.F)",
-    "z = np.ones(3)\nnp.put(z, [0], g.F)",
+    "z = np.ones(3)\nnp.putmask(z, z < 0.5, [g.F, 1.0])",
+    "z = np.ones(3)\nnp.put(z, [0], g.F, mode='clip')",
     "z = np.ones(3)\nnp.random.default_rng(int(g.k)).shuffle(z)",
     "z = []\nfor f in (g.F, 2.0):\n    f *= 2\n    z.append(math.ulp(f))",
     "def near(rows, v):\n    return rows\nz = np.ones(3)\nnear(z, g.F)[1] = math.ulp(g.F)",
