@@ -63,6 +63,12 @@ def test_what_may_be_another_array_is_never_stale(lines: str, tmp_path: Path) ->
     assert_never_stale(lines, tmp_path)
 
 
+@pytest.mark.parametrize("array", ["['a', 'b']", "[1.5, 2.5], dtype=np.float32", "[(1.0,)], dtype=[('a', float)]"])
+def test_an_array_of_other_values_ends_no_recording(array: str, tmp_path: Path) -> None:
+    lines = f"w = np.array({array})\nv = w\nv[0] = v[-1]\ny = g.F"
+    assert_never_stale(lines, tmp_path)
+
+
 def test_what_else_knows_the_array_is_told(tmp_path: Path) -> None:
     for more in ("L = [v]\nw[0] = g.a\ny = L[0]", "for i in range(1, 3):\n    w[i] = v[i - 1]\ny = v"):
         assert_never_stale(TWO + more, tmp_path)

@@ -209,8 +209,8 @@ class Run(LeavingOut, OfPositions):
         seen = {frozenset(guard.holds for guard in self.looked.get(n, ())) for n in (*facts.changed, *others)}
         may = others and others <= self.of_cell and len(seen) == 1  # else it is another one for other inputs
         may = may and (facts.at_once or reads.isdisjoint(others))
-        apart = taken_apart(graph, self.names, facts.changed, others, {*facts.changed, *reads}) if may else None
-        beside_it = others if apart else set[str]()
+        array = taken_apart(graph, self.names, facts.changed, others, {*facts.changed, *reads}) if may else None
+        beside_it = others if array else set[str]()
         touched |= dict.fromkeys(beside_it)
         final = {name for name in touched if name not in later and not name.startswith("_")}
         several = of_one_array(final, self.to_change, self.namespace)
@@ -221,14 +221,14 @@ class Run(LeavingOut, OfPositions):
         altered = facts.in_place | handed | reached  # names of arrays that may be others now
         differs: list[str] = []
         try:
-            if (others and not apart) or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
-                raise NotRecorded(OTHER_NAME) if others and not apart else self.lost[min(gone)]
+            if (others and not array) or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
+                raise NotRecorded(OTHER_NAME) if others and not array else self.lost[min(gone)]
             for name in facts.calls:
                 if name in facts.renamed or statement.is_own(name, self.names, self.namespace):
                     raise NotRecorded(f"{name} is another function here than Python's own")
             exec(facts.code, self.names)
-            if apart:
-                apart.put_together(self.names)
+            if array:
+                array.put_together(self.names)
             if graph.meant.disturbed():
                 raise NotRecorded(CHANGED)
             if graph.untold:
