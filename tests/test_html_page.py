@@ -119,7 +119,8 @@ def drawn(name: str, given: dict[str, str]) -> dict[str, list[Any]]:
 
 def put_in(line: parts.Line, known: Numbers) -> str:
     """The formula of a line with numbers for its symbols; nothing where it has none."""
-    found = {name: x for name in expression.reads(line.formula) if (x := known.at(name, line.position))}
+    at, of = line.position, line.formula.name
+    found = {name: x for name in expression.reads(line.formula) if (x := known.at(name, at, of))}
     read = {name: formula.Measure(x / units.parse(unit).factor, unit) for name, (x, unit) in found.items()}
     node = None if line.formula.arguments else expression.substituted(line.formula, read)
     return f'<math displaystyle="true"><mo>=</mo>{inner(node)}</math>' if node else ""
