@@ -133,6 +133,7 @@ def test_the_page_judges_as_the_worksheet_does(sheet: Path, tmp_path: Path, page
     for given in OTHERS:
         page.goto("about:blank")
         page.goto(file.as_uri())
+        page.wait_for_selector("body[data-ready]")
         for name, value in given.items():
             page.locator(f"#input-{name}").fill(str(value))
         shown = page.locator(".ms-check").evaluate_all("checks => checks.map(c => c.innerText)")

@@ -112,6 +112,7 @@ def test_a_page_has_the_names_of_other_inputs(sheet: Path, tmp_path: Path, page:
     for given in OTHERS:
         page.goto("about:blank")
         page.goto(file.as_uri())
+        page.wait_for_selector("body[data-ready]")
         for label, text in typed(given):
             field = page.get_by_label(label, exact=True)
             field.select_option(text) if label in ("steel", "side") else field.fill(text)
@@ -179,6 +180,7 @@ third = check("third", 7.0, 10.0)
     file = tmp_path / "order.html"
     file.write_text(write.page(load(path), load(path).inputs()), encoding="utf-8")
     page.goto(file.as_uri())
+    page.wait_for_selector("body[data-ready]")
 
     def order(n: int) -> list[str]:
         page.locator("#input-n").fill(str(n))

@@ -108,6 +108,7 @@ def test_a_page_chooses_the_texts_of_other_inputs(sheet: Path, tmp_path: Path, p
     for given in [*OTHERS, {"k": 7, "M": 2500.0}]:
         page.goto("about:blank")
         page.goto(file.as_uri())
+        page.wait_for_selector("body[data-ready]")
         for key, x in given.items():
             field = page.locator(f"#input-{key}")
             if isinstance(x, bool):

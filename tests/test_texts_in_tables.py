@@ -429,6 +429,7 @@ def test_texts_stand_in_the_order_of_numbers(tmp_path: Path, recalculated_all: A
         F, name = changes.get("cases.F (1)", 12), changes.get("cases.name (1)", "braking")
         page.goto("about:blank")
         page.goto(f"{file.as_uri()}#cases={name}; {F}; 80 | cornering; 8; 150")
+        page.wait_for_selector("body[data-ready]")
         shown = page.locator(".ms-table tbody tr td:first-child").all_inner_texts()
         assert shown == [*wanted[0], *wanted[1]], changes
     other = ORDERED.replace("who = g.cases.name[order]", "who = g.cases.name[order]  # [-] name")
@@ -441,6 +442,7 @@ def test_a_page_in_one_file_shows_the_texts_that_are_typed(cases: Path, tmp_path
     sheet, file = load(cases), tmp_path / "cases.html"
     file.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
     page.goto(file.as_uri())
+    page.wait_for_selector("body[data-ready]")
 
     def shown() -> tuple[list[list[str]], str, str]:
         rows = page.locator(".ms-table tbody tr").evaluate_all(
@@ -501,6 +503,7 @@ def test_a_check_that_is_called_by_what_was_chosen_follows(tmp_path: Path, page:
     sheet, file = load(path), tmp_path / "named.html"
     file.write_text(write.page(sheet, sheet.inputs()), encoding="utf-8")
     page.goto(file.as_uri())
+    page.wait_for_selector("body[data-ready]")
 
     def told() -> list[str]:
         names = page.locator(".ms-name").all_inner_texts()
@@ -550,6 +553,7 @@ def test_a_column_of_texts_may_have_a_name_of_its_own(recalculated: Any, tmp_pat
     file = tmp_path / "named.html"
     file.write_text(write.page(load(path), load(path).inputs()), encoding="utf-8")
     page.goto(file.as_uri())
+    page.wait_for_selector("body[data-ready]")
     page.get_by_label("name, row 2").fill("typed")
     assert page.locator(".ms-table tbody td.ms-text").all_inner_texts() == ["braking", "typed"]
     path.write_text(path.read_text().replace("name = g.cases.name", "name = np.array([c.name for c in g.cases])"))
