@@ -69,6 +69,12 @@ def test_an_array_of_other_values_ends_no_recording(array: str, tmp_path: Path) 
     assert_never_stale(lines, tmp_path)
 
 
+def test_texts_that_a_condition_chooses_hold_while_it_does(tmp_path: Path) -> None:
+    lines = "names = np.array(['a', 'b']) if g.F > 2 else np.array(['a'])\ny = g.F * len(names)"
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps
+
+
 def test_what_else_knows_the_array_is_told(tmp_path: Path) -> None:
     for more in ("L = [v]\nw[0] = g.a\ny = L[0]", "for i in range(1, 3):\n    w[i] = v[i - 1]\ny = v"):
         assert_never_stale(TWO + more, tmp_path)

@@ -15,7 +15,7 @@ from mechsheet.quantities.arithmetic import elementwise, none_like, trunc, whole
 from mechsheet.quantities.arithmetic import is_whole as whole_number
 from mechsheet.quantities.graph import NotRecorded, current
 from mechsheet.quantities.of_lists import OneOfLists
-from mechsheet.quantities.operations import regrouped
+from mechsheet.quantities.operations import is_double, regrouped
 from mechsheet.quantities.options import Fields, Row, Thing, changed, every, is_object, parted
 from mechsheet.quantities.quantity import Listed, Quantity, has_quantity, is_any_length, lift
 from mechsheet.quantities.refused import compared, pointed, refused, says, unless
@@ -103,7 +103,7 @@ def _chosen(condition: Any, x: Callable[..., Any], y: Callable[..., Any], *given
         graph.looked = looked
         if value is not None or other is not None:
             bool(condition)
-            if isinstance(value, ARRAYS) and isinstance(other, ARRAYS) and np.ndim(value) and np.ndim(other):
+            if all(isinstance(x, np.ndarray | Quantity) and x.ndim and is_double(x.dtype) for x in (value, other)):
                 return one_of(copy(lift(graph, value)), value, other)
             taken(value, *(before.values() if other is UNBOUND else [other]))
         return value

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mechsheet.quantities.graph import Graph, NotRecorded
+from mechsheet.quantities.graph import Graph
+from mechsheet.quantities.operations import is_double
 from mechsheet.quantities.quantity import Quantity, joined, lift, owner
 from mechsheet.recording.memory import either_of
 
@@ -85,13 +86,10 @@ def _is_array(value: Any) -> bool:
 
 def _part(graph: Graph, name: str, value: Any, array: Any) -> _Part | None:
     """What a name has of the array that another value is of; None where that is not known."""
-    if type(value) not in (np.ndarray, Quantity) or owner(value) is not owner(array):
+    if type(value) not in (np.ndarray, Quantity) or owner(value) is not owner(array) or not is_double(value.dtype):
         return None
-    try:
-        numbers, places = copy(lift(graph, value)), _places(value)
-    except NotRecorded:  # of texts, or of numbers that are no doubles
-        return None
-    return None if places is None else _Part(name, numbers, places)
+    places = _places(value)
+    return None if places is None else _Part(name, copy(lift(graph, value)), places)
 
 
 def _places(array: Any) -> Places | None:
