@@ -429,6 +429,10 @@ def test_two_clicks_on_a_heading_edit_its_text(editor):
     expect(code).to_be_focused()
     assert code.evaluate("text => text.closest('.cm').offsetHeight") > 10
     expect(heading).to_have_attribute("aria-expanded", "true")
+    editor.edit("## 3 Results", "## 3 Outcome")
+    anew = page.get_by_role("heading", name="3 Outcome")
+    expect(anew, "a keyboard closes what is drawn anew too").to_have_attribute("aria-expanded", "true")
+    expect(anew).to_have_attribute("tabindex", "0")
     page.locator(".ms-title b").first.click()
     expect(page.locator(".cm-content:visible")).to_have_count(0)
     page.get_by_label("code of all cells").check()
@@ -999,9 +1003,8 @@ def test_what_a_file_that_was_changed_elsewhere_cannot_give_is_shown_nowhere(edi
     editor.expect("2 of 2 checks pass")
 
 
-def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chromium):
-    """The last of those in the editor, which lacks it then."""
-    page, told = opened.page, opened.page.locator(".ms-written")
+def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(editor):
+    page, told = editor.page, editor.page.locator(".ms-written")
     cells = page.locator(".marimo-cell")
     count, needed = cells.count(), cells.filter(has=page.locator("#line-M_S"))
     click_delete(needed)
@@ -1035,3 +1038,7 @@ def test_a_cell_that_others_need_goes_when_it_is_deleted_once_more(opened, chrom
     expect(cells).to_have_count(count - 1)
     click_delete(needed)
     expect(cells).to_have_count(count - 2)
+    for there in (count - 1, count):
+        page.get_by_test_id("undo-delete-cell").click()
+        expect(cells).to_have_count(there)
+    page.get_by_test_id("run-button").last.click()  # all that wait

@@ -126,6 +126,7 @@ def test_changed_input_changes_the_tables(page):
 
 def test_the_verdict_stays_in_sight_and_leads_to_the_check_that_fails(page):
     bar = page.locator(".ms-bar")
+    in_sight(page.locator(".ms-summary"))
     expect(bar, "the summary is in sight itself").to_be_hidden()
     field = page.locator(".ms-inputs tr:has-text('weight of the implement') input")
     in_sight(field)

@@ -126,6 +126,7 @@
       call(host);
       if (host.shadowRoot) drawn.observe(host.shadowRoot, { childList: true, subtree: true });
     });
+    document.dispatchEvent(new Event("ms-drawn"));
   }
   drawn.observe(document.body, { childList: true, subtree: true });
 

@@ -111,4 +111,8 @@
   });
   document.addEventListener("ms-lead", ({ target }) => open(target));
   document.addEventListener("ms-measured", show); // once everything is there
+  document.addEventListener("ms-drawn", () => {
+    const isNew = (heading) => heading.ariaExpanded === null; // drawn anew with its cell
+    if ([...document.querySelectorAll(HEADINGS)].some(isNew)) show();
+  });
 })();
