@@ -67,6 +67,16 @@ def test_integrals_roots_and_rows_follow(lines: str, blank: Page, tmp_path: Path
     assert_computed(blank, own(tmp_path, f"{lines}\nresult = np.atleast_1d(y) * 1  # [-] line"), ELSEWHERE)
 
 
+def test_frequencies_of_many_masses_are_computed(blank: Page, tmp_path: Path) -> None:
+    """Cells have the eigenvalues of three rows, a page those of eight."""
+    lines = (
+        "from scipy.linalg import eigh\nM = np.diag(np.arange(1.0, 9.0) * g.a)\n"
+        "K = 2 * np.diag([g.F] * 8) - np.diag([g.F] * 7, 1) - np.diag([g.F] * 7, -1)\n"
+        "y = np.sqrt(eigh(K, M, eigvals_only=True))  # [-] line\nresult = y * 1  # [-] line"
+    )
+    assert_computed(blank, own(tmp_path, lines), OTHER)
+
+
 def test_elements_are_taken_of_a_field_that_is_whole(blank: Page, tmp_path: Path) -> None:
     """Where the field and what is taken of it are as long, one loop could compute both: it had the exported numbers."""
     lines = (

@@ -16,9 +16,9 @@ from mechsheet.quantities.quantity import Quantity, joined, lift, moved
 from mechsheet.quantities.truths import summed
 
 _MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
-_OF_STRESS = 3  # rows of a symmetric matrix whose eigenvalues are recorded
+_OF_STRESS, _OF_FRAME = 3, 8  # rows of a symmetric matrix whose eigenvalues are recorded; the last where no cell is
 _NONE = 1e-20  # of all elements together: no digit of an eigenvalue, and no number in cells once it is squared
-_SWEEPS = 5  # of Jacobi's rotations: the third one reaches the last digits
+_SWEEPS = 5, 7  # of Jacobi's rotations: of three rows the third one reaches the last digits, of eight the sixth
 _TOO_MANY = f"a system of more than {_MOST} linear equations"
 
 
@@ -234,15 +234,17 @@ def _symmetric(graph: Graph, A: Any, UPLO: str) -> list[list[Any]]:
 
 
 def _eigenvalues(graph: Graph, a: list[list[Any]]) -> Any:
-    """Eigenvalues of symmetric matrices of two or three rows, in order, by Jacobi's rotations: right to rounding.
+    """Eigenvalues of symmetric matrices of some rows, in order, by Jacobi's rotations: right to rounding.
 
     The closed form of three loses half of the digits where two are nearly the same.
     """
-    if len(a) > _OF_STRESS:
-        raise NotRecorded(f"eigenvalues of a matrix of more than {_OF_STRESS} rows")
+    most = _OF_FRAME if graph.refuses else _OF_STRESS
+    if len(a) > most:
+        raise NotRecorded(f"eigenvalues of a matrix of more than {most} rows")
     pairs = list(combinations(range(len(a)), 2))
+    sweeps = 1 if len(a) < 3 else _SWEEPS[len(a) > _OF_STRESS]
     none = _NONE * reduce(operator.add, (absolute(a[i][j]) for i in range(len(a)) for j in range(i, len(a))))
-    for p, q in pairs * (_SWEEPS if len(a) > 2 else 1):
+    for p, q in pairs * sweeps:
         off, apart = a[p][q], a[q][q] - a[p][p]
         way = choice(graph, apart < 0, -2.0, 2.0) * off
         turn = choice(graph, absolute(off) <= none, 0.0, way / (absolute(apart) + np.hypot(apart, 2 * off)))
