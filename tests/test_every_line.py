@@ -183,6 +183,22 @@ def test_what_rounding_makes_whole_is_that_of_the_worksheet(
     assert shown["cents"] == ["#N/A"] and shown["up"] == [4]
 
 
+STEPPED = """a, b = {"ground": (1.34, -0.085), "rough": (2.7, -0.265)}[g.finish]
+s = lambda: (g.F / 100 + g.L * g.n + g.F * g.L / 7 + g.n**2) ** b
+k = (2 + a * s()) / (1 + s())  # [-] surface"""
+
+
+@pytest.mark.office
+def test_a_step_for_another_text_is_none(recalculated: Callable[[Path], Any], tmp_path: Path) -> None:
+    """The line was #N/A, and the cell of its step had the power of before."""
+    path = tmp_path / "stepped.py"
+    path.write_text(written(SETUP, f'{GIVEN}\nfinish: str = "rough"  # finish', STEPPED, "Stepped"))
+    assert "written" in as_script(path).stdout
+    there = recalculated(edit(tmp_path / "stepped.xlsx", {"finish": "ground"}, tmp_path / "edited.xlsx"))
+    shown = {row[0]: row[1] for row in there["Table lines"].iter_rows(values_only=True)}
+    assert shown["k"] == shown["k_1"] == "#N/A"
+
+
 ENDLESS = """N_1 = 2e6 * (300.0 / g.F) ** 5 if g.F > 300.0 else np.inf  # [-] turns
 N_2 = 3e6 * (300.0 / g.F) ** 5 if g.F > 300.0 else np.inf  # [-] turns
 least = min(N_1, N_2, 1e9)  # [-] fewest

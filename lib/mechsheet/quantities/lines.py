@@ -32,6 +32,7 @@ class Line:
     meaning: str
     text: str = ""
     number: str = ""
+    holds: tuple[Node, ...] = ()  # of a step: what must hold for anybody to ask for it
 
 
 @dataclass

@@ -158,6 +158,9 @@ class Arrangement:
             elif node in sure:
                 symbol, meaning = f"{sure[node]}_sure", f"whether the closed form of {sure[node]} is what is found"
             sections.setdefault("Residuals", []).append(Line(node, symbol, "", meaning))
+        asked = self._asked_while()
+        for line in chain.from_iterable(sections.values()):
+            line.holds = () if line.text else asked.get(line.node, ())
         every = self.recording.sections
         titles = sections.keys() | self.recording.others.keys()
         order = sorted(titles, key=lambda title: (every.index(title) if title in every else len(every), title))
@@ -168,6 +171,25 @@ class Arrangement:
         steps = [step for step in steps_of(line.node, written_of, known) if waiting.pop(step, None)]
         meaning = f"step of {line.symbol if line.text else line.meaning}"
         return [Line(step, f"{line.symbol}_{n}", "", meaning) for n, step in enumerate(steps, 1)]
+
+    def _asked_while(self) -> dict[Node, tuple[Node, ...]]:
+        """For each quantity the numbers or texts that Python has looked at, and must see again where it is asked for.
+
+        Of other ones its formula has what Python had made of them.
+        """
+        seen = (guard.holds for guards in self.recording.looked.values() for guard in guards if not guard.rows)
+        looked = dict.fromkeys(holds for holds in seen if holds.op == "eq" and holds.args[1].op == "constant")
+        if not looked:
+            return {}
+        roots = list(self._roots())
+        found = dict.fromkeys(roots, frozenset[Node]())
+        for node in reversed([*bottom_up(roots, ())]):
+            for operand in node.operands:
+                under = found[node]
+                if node.op == "where" and node.args[0] in looked and operand is node.args[1] and _is_none(node.args[2]):
+                    under |= {node.args[0]}
+                found[operand] = found.get(operand, under) & under
+        return {node: tuple(each for each in looked if each in holds) for node, holds in found.items() if holds}
 
     def _section(self, title: str, lines: Sequence[Line], name: Callable[[str, str], str]) -> Section:
         single, fields = ([line for line in lines if (line.node.size > 1) == many] for many in (False, True))
@@ -184,6 +206,10 @@ class Arrangement:
             for n, line in enumerate(section.fields[sheet]):
                 self._settle(line.node, line.symbol, sheet, self.first, n)
         return section
+
+
+def _is_none(node: Node) -> bool:
+    return node.op == "constant" and bool(np.isnan(node.value).all())
 
 
 def declared(recording: Recording) -> list[Line]:

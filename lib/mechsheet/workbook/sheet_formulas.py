@@ -123,7 +123,11 @@ class SheetFormulas:
     def line(self, line: Line) -> list[str] | None:
         """Formulas of a quantity of a section; None where it holds plain numbers."""
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
-        return None if plain else self._formulas(line.node)
+        if plain:
+            return None
+        same = ",".join(self._cells.reference(each)[1:] for each in line.holds)
+        texts = self._formulas(line.node)
+        return [f"=IF(AND({same}),{text[1:]},NA())" for text in texts] if same else texts
 
     def holds_infinite(self, node: Node) -> bool:
         """Whether cells of a quantity have what stands for an infinite number."""
