@@ -145,3 +145,34 @@ def test_reasons_name_what_users_wrote(tmp_path: Path) -> None:
     ):
         _, recording = recorded(own(tmp_path, f"{lines}\nresult = y * 1.0  # [-] line"))
         assert said in recording.gaps[0].reason
+
+
+ROWS_OF = "A = np.outer([1.0, 2.0, 3.0], [2.0, 1.0, 5.0]) * g.F\n"
+TAKEN = [
+    f"{ROWS_OF}for i in range(3):\n    row = A[i]\n    row /= row.sum() * g.a\ny = np.append(A.ravel(), row)",
+    f"{ROWS_OF}for i, s in enumerate([1.0, g.a, 2.0]):\n    row = A[i]\n    row[1] *= s\ny = A.ravel()",
+    f"{ROWS_OF}for i in [0, 0, 1]:\n    row = A[i]\n    row *= g.a\ny = A.ravel()",
+    f"{ROWS_OF}for i in range(3):\n    row = A[i]\n    for j in range(3):\n        row[j] += i * g.a\ny = A.ravel()",
+    f"{ROWS_OF}def f(A):\n    B = A * 1\n    for i in range(3):\n        r = B[i]\n        r -= r.mean() * g.a\n"
+    "    return B\ny = f(A).ravel()",
+    "L = [x * g.F, x * g.a]\nfor i in range(2):\n    v = L[i]\n    v *= 2\ny = L[0] + L[1] * v",
+    "w = x * g.F\nfor i in range(3):\n    v = w[i]\n    v *= 2\ny = w",  # a number
+    "d = {0: 1.0, 1: g.F}\nfor k in (0, 1):\n    v = d[k]\n    v *= g.a\ny = d[0] + d[1] * v",
+]
+TAKEN_TOLD = [
+    f"{ROWS_OF}for i in range(3):\n    row = A[i]\n    row /= A.sum() * g.a\ny = A.ravel()",
+    f"{ROWS_OF}B = A\nfor i in range(3):\n    row = A[i]\n    row /= row.sum() * g.a\ny = B.ravel()",
+    "d = {0: x * 1.0, 1: x * g.F}\nfor k in (0, 1):\n    v = d[k]\n    v *= g.a\ny = d[0] + d[1]",
+]
+
+
+@pytest.mark.parametrize("lines", TAKEN)
+def test_a_row_that_is_taken_first_and_changed_follows(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+    assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+@pytest.mark.parametrize("lines", TAKEN_TOLD)
+def test_a_row_of_what_has_another_name_is_told(lines: str, tmp_path: Path) -> None:
+    assert_never_stale(lines, tmp_path)
+    assert recorded(own(tmp_path, lines))[1].gaps

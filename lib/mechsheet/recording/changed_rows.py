@@ -1,4 +1,4 @@
-"""Loops that change the rows of a matrix, or the arrays in a list: ``for r in A: r /= r.sum()``.
+"""Loops that change the rows of a matrix, or the arrays in a list: ``for r in A: r /= r.sum()``, or ``r = A[i]`` first.
 
 A row is taken out for its turn, and what it is then is put back.
 """
@@ -35,10 +35,7 @@ class _Exchanged(ast.NodeTransformer):
 def rows_changed(node: ast.For) -> list[tuple[ast.Name, ast.Name]]:
     """What a loop calls the rows that it changes, and what it takes each of them out of; nothing where that is read."""
     parts = [part for line in node.body for part in ast.walk(line)]
-    names = {part.id for part in parts if isinstance(part, ast.Name)}
-    added = {id(part.target) for part in parts if isinstance(part, ast.AugAssign)}
-    stored = [part for part in parts if isinstance(part, ast.Name) and not isinstance(part.ctx, ast.Load)]
-    bound = {part.id for part in stored if id(part) not in added}
+    names, bound = _named(parts)
     rows = [
         (row, of)
         for row, of in pairs(node.target, node.iter)
@@ -58,7 +55,9 @@ def through_rows(node: ast.For, function: ast.FunctionDef | None) -> list[ast.st
     Behind it the name of a row is that of a part of what it went through; in a ``function`` nobody asks for it.
     """
     rows = rows_changed(node)
-    if not rows or (function and not bound_in(function).issuperset(of.id for _, of in rows)):
+    if not rows:
+        return _through_taken(node, function)
+    if function and not bound_in(function).issuperset(of.id for _, of in rows):
         return []
     others, begin, end, last = dict[int, ast.expr](), list[ast.stmt](), list[ast.stmt](), list[ast.stmt]()
     for row, of in rows:
@@ -77,6 +76,40 @@ def through_rows(node: ast.For, function: ast.FunctionDef | None) -> list[ast.st
     target, items = map(_Exchanged(others).visit, (node.target, node.iter))
     loop = ast.For(target, items, [*begin, *node.body, *end], [])
     return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (loop, *last)]
+
+
+def _through_taken(node: ast.For, function: ast.FunctionDef | None) -> list[ast.stmt]:
+    """The same of a loop that takes a row of an array at the beginning of each turn, ``row = A[i]``, and changes it."""
+    match node.body:
+        case [ast.Assign([ast.Name(row)], ast.Subscript(ast.Name(of), ast.Name(i) as place)), *rest]:
+            parts = [part for line in rest for part in ast.walk(line)]
+        case _:
+            return []
+    names, bound = _named(parts)
+    alone = {row, of, i}.isdisjoint(bound) and of not in names and len({row, of, i}) == 3
+    if not alone or node.orelse or not _changes(parts, row) or any(isinstance(part, _OTHERWISE) for part in parts):
+        return []
+    if any(isinstance(part, ast.Name) and part.id in (row, of) for part in ast.walk(node.target)):
+        return []
+    if function and of not in bound_in(function):
+        return []
+    array, own_row = ast.Name(of, ast.Load()), ast.List([ast.Name(row, ast.Load())], ast.Load())
+    begin = ast.Assign([ast.Name(row, ast.Store())], call("row_out", node, array, place))
+    loop = ast.For(node.target, node.iter, [begin, *rest, *bound_anew(node, of, "put_back", place, own_row)], [])
+    left: ast.expr = ast.Name("recorded unbound", ast.Load())
+    if not function:
+        now = call("known", node, ast.Call(ast.Name("locals", ast.Load()), [], []), ast.Constant(row))
+        left = call("row_again", node, array, later(place), ast.Starred(now, ast.Load()))
+    last = [ast.Assign([ast.Name(row, ast.Store())], left), *([] if function else [deleted(row, node)])]
+    return [ast.fix_missing_locations(ast.copy_location(line, node)) for line in (loop, *last)]
+
+
+def _named(parts: list[ast.AST]) -> tuple[set[str], set[str]]:
+    """Names in some nodes, and those that are bound to something else there."""
+    added = {id(part.target) for part in parts if isinstance(part, ast.AugAssign)}
+    names = [part for part in parts if isinstance(part, ast.Name)]
+    stored = {part.id for part in names if not isinstance(part.ctx, ast.Load) and id(part) not in added}
+    return {part.id for part in names}, stored
 
 
 def _changes(parts: list[ast.AST], row: str) -> bool:
@@ -106,8 +139,10 @@ def row_out(items: Any, place: Any) -> Any:
     """An element, which is a row by itself, or out of its list."""
     if isinstance(place, _Itself):
         return place.element
-    if type(items) is not list:
+    if is_array(items):
         return items[place].copy() if items.ndim > 1 else items[place]
+    if type(items) is not list or type(place) is not int:
+        return element(items, place)
     each = items[place]
     if is_array(each):
         items[place] = _OUT
@@ -116,14 +151,10 @@ def row_out(items: Any, place: Any) -> Any:
 
 def put_back(items: Any, place: Any, rows: list[Any]) -> Any:
     """What the loop goes through, once a turn has changed a row or an array of it, the one of ``rows``."""
-    if isinstance(place, _Itself):
-        return items
-    if type(items) is list:
-        if items[place] is _OUT:
-            items[place] = rows[0]
-            settled(rows[0])
-        return items
-    if items.ndim == 1:
+    if type(items) is list and type(place) is int and items[place] is _OUT:
+        items[place] = rows[0]
+        settled(rows[0])
+    if isinstance(place, _Itself) or not is_array(items) or items.ndim == 1:
         return items
     unshared(rows)
     return put(items, place, rows[0])
@@ -134,10 +165,16 @@ def last_row(items: Any, row: Any) -> Any:
     return element(items, -1) if row is not UNBOUND and is_array(items) and items.ndim > 1 else row
 
 
+def row_again(items: Any, place: Callable[[], Any], row: Any) -> Any:
+    """What the name of a row that was taken out stands for behind the loop: that row of the array."""
+    return element(items, place()) if row is not UNBOUND and is_array(items) and items.ndim > 1 else row
+
+
 CALLS: dict[str, Any] = {
     "places": places,
     "row_out": row_out,
     "put_back": put_back,
     "own put_back": put_back,
     "last_row": last_row,
+    "row_again": row_again,
 }
