@@ -173,12 +173,12 @@ class Arrangement:
         return [Line(step, f"{line.symbol}_{n}", "", meaning) for n, step in enumerate(steps, 1)]
 
     def _asked_while(self) -> dict[Node, tuple[Node, ...]]:
-        """For each quantity the numbers or texts that Python has looked at, and must see again where it is asked for.
+        """For each quantity the inputs that Python has looked at, and must see again where it is asked for.
 
         Of other ones its formula has what Python had made of them.
         """
         seen = (guard.holds for guards in self.recording.looked.values() for guard in guards if not guard.rows)
-        looked = dict.fromkeys(holds for holds in seen if holds.op == "eq" and holds.args[1].op == "constant")
+        looked = dict.fromkeys(holds for holds in seen if holds.op == "eq" and holds.args[0].op == "input")
         if not looked:
             return {}
         roots = list(self._roots())

@@ -125,9 +125,9 @@ class SheetFormulas:
         plain = line.node.op == "constant" and line.node.value.dtype != bool  # 1 is not TRUE to a spreadsheet
         if plain:
             return None
-        same = ",".join(self._cells.reference(each)[1:] for each in line.holds)
-        texts = self._formulas(line.node)
-        return [f"=IF(AND({same}),{text[1:]},NA())" for text in texts] if same else texts
+        texts, holds = self._formulas(line.node), [self._cells.reference(each)[1:] for each in line.holds]
+        same = f"AND({','.join(holds)})" if len(holds) > 1 else "".join(holds)
+        return [f"=IF({same},{text[1:]},NA())" for text in texts] if same else texts
 
     def holds_infinite(self, node: Node) -> bool:
         """Whether cells of a quantity have what stands for an infinite number."""
