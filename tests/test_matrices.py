@@ -3,8 +3,12 @@
 from pathlib import Path
 
 import pytest
+from cells import run
+from in_tex import in_tex
 from never_stale import assert_never_stale
 from own_worksheet import own, recorded
+
+from mechsheet.page.values import html
 
 OVER = "M = np.array([[1.0, 0.2], [0.2, g.a + 1]])\nK = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\n"
 FOLLOWED = [
@@ -50,3 +54,26 @@ def test_what_is_of_now_alone_is_named(lines: str, told: str, tmp_path: Path) ->
     """What is computed of eigenvectors was "what it changes", and a function of scipy was called "inner"."""
     assert_never_stale(lines, tmp_path)
     assert told in str(recorded(own(tmp_path, lines))[1].gaps[0])
+
+
+@pytest.mark.parametrize(
+    ("line", "formula"),
+    [
+        ("A @ B", r"A\,B"),
+        ("A * B", "A ⊙ B"),
+        ("np.multiply(k * A, v)", r"(k\,A) ⊙ v"),
+        ("A @ v * v", r"(A\,v) ⊙ v"),
+        ("A**2 @ v", r"A^{\text{⊙}2}\,v"),
+        ("k / A / 2", r"\frac{k ⊘ A}{2}"),
+        ("k * v * w + A / k", r"k\,v\,w + \frac{A}{k}"),
+        ("R * R", r"R\,R"),  # of which there is no product of matrices
+        ("A[:, 0] * v", r"A_{\text{:},0}\,v"),
+    ],
+)
+def test_products_by_elements_are_told_from_those_of_matrices(line: str, formula: str) -> None:
+    """``A * B`` was typeset as ``A @ B`` is: who meant the one and wrote the other saw nothing."""
+    names = run(
+        "import numpy as np\nfrom mechsheet import typeset\nA = np.array([[1.0, 2], [3, 4]])\nB = A + 1\n"
+        f"v = A[0]\nw = B[0]\nR = np.ones((2, 3))\nk = 2.0\ny = {line}  # [-] result\nshown = typeset()"
+    )
+    assert formula in in_tex(html(names["shown"]))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache, reduce
 from typing import Any
 
-from mechsheet.document import comprehension, functions, mapped, names, solved
+from mechsheet.document import by_elements, comprehension, functions, mapped, names, solved
 from mechsheet.document.constant import measured
 from mechsheet.document.formula import (
     POWER,
@@ -91,8 +91,8 @@ def _written(part: ast.expr, line: Formula | Given) -> ast.expr:
     """A part of a line with its units as such, solve blocks by their unknowns, and what calls its own functions."""
     if isinstance(line, Formula) and line.solved:
         part = solved.by_unknowns(part, line.solved)
-    part = measured(part, line.constants)
-    return functions.marked(part, line.own) if line.own else part
+    part = functions.marked(measured(part, line.constants), line.own)
+    return by_elements.marked(part, dict(line.shapes))
 
 
 @lru_cache(maxsize=4096)
@@ -212,16 +212,18 @@ class _Reader:
     def binary(self, node: ast.BinOp) -> Node | None:
         left, right = node.left, node.right
         match node.op:
+            case _ if by_elements.is_marked(node):
+                return by_elements.read(self, node)
             case ast.Mult() | ast.Div() if positive := _without_minus(node):
                 return Signed("-", self.read(positive))
             case ast.Div():
-                under = [right]
-                while isinstance(left, ast.BinOp) and isinstance(left.op, ast.Div):  # one fraction, not one on another
+                under = [right]  # of one fraction, not one on another
+                while isinstance(left, ast.BinOp) and isinstance(left.op, ast.Div) and not by_elements.is_marked(left):
                     under, left = [left.right, *under], left.left
                 below: ast.expr = reduce(lambda a, b: ast.BinOp(a, ast.Mult(), b), under)
-                match left:
-                    case ast.BinOp(ast.BinOp(op=ast.Div()) as first, ast.Mult(), factor):  # two beside each other
-                        return self.product(first, ast.BinOp(factor, ast.Div(), below))
+                match left:  # two beside each other
+                    case ast.BinOp(ast.BinOp(op=ast.Div()) as a, ast.Mult(), b) if not by_elements.is_marked(left):
+                        return self.product(a, ast.BinOp(b, ast.Div(), below))
                 return Fraction(self.read(left), self.read(below))
             case ast.FloorDiv():
                 return Brackets((Fraction(self.read(left), self.read(right)),), "⌊⌋")

@@ -29,9 +29,9 @@ class Formula(NamedTuple):
     expression of a function with more than branches and such names in it is ``...``. ``constants`` are the names of
     units in it, as they are written, with the units. ``mistake`` tells why the unit is not known, and the value shown
     in SI. ``solved`` are the names of solve blocks in it, each with one that tells the unknown, such as ``beta_found``.
-    From the line ``again`` on its name has another value, which is not the line's; ``others`` are the names that
-    it reads and that have other values once the cell has run. Where a value is ``altered`` in place by then, its own or
-    one that it reads, its formula gives another one. Its ``own`` functions are none of numpy's that have these names.
+    From the line ``again`` on its name has another value, which is not the line's; ``others`` are the names it reads
+    that have other values once the cell has run. Where a value is ``altered`` in place by then, its own or one that it
+    reads, its formula gives another one. No ``own`` function is numpy's of that name; ``shapes`` are of what it reads.
     """
 
     name: str
@@ -48,6 +48,7 @@ class Formula(NamedTuple):
     others: frozenset[str] = frozenset()
     altered: bool = False
     own: frozenset[str] = frozenset()
+    shapes: tuple[tuple[str, tuple[int, ...]], ...] = ()
 
     @property
     def has_value(self) -> bool:
@@ -72,6 +73,7 @@ class Given(NamedTuple):
     constants: tuple[tuple[str, str], ...] = ()
     name: str = ""
     own: frozenset[str] = frozenset()
+    shapes: tuple[tuple[str, tuple[int, ...]], ...] = ()
 
 
 class Declared(NamedTuple):
@@ -442,8 +444,7 @@ def dotted(node: ast.Attribute) -> str:
 def names_read(row: Formula | Given) -> tuple[str, ...]:
     """Names that a line reads, parts of modules too, without its arguments."""
     parts = [row.expression, *((row.target,) if isinstance(row, Given) else (value for _, value in row.where))]
-    nodes = (node for part in parts for node in source.nodes(part))
-    named = (node for node in nodes if isinstance(node, ast.Name | ast.Attribute))
+    named = (node for part in parts for node in source.nodes(part) if isinstance(node, ast.Name | ast.Attribute))
     read = (node.id if isinstance(node, ast.Name) else dotted(node) for node in named)
     own = () if isinstance(row, Given) else (*row.arguments, *(name for name, _ in row.where))
     return tuple(name for name in dict.fromkeys(read) if name not in own)

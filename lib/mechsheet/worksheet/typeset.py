@@ -18,6 +18,7 @@ from mechsheet.worksheet import altered, source
 from mechsheet.worksheet.errors import SheetError, refuse
 from mechsheet.worksheet.lines import Formula, Given, displayed, formulas, names_read, registry
 from mechsheet.worksheet.numbers import existing
+from mechsheet.worksheet.shapes import shapes
 from mechsheet.worksheet.shown import Shown
 from mechsheet.worksheet.verdict import asks_values_only
 
@@ -97,6 +98,8 @@ def _with_constants(row: Formula | Given, namespace: Mapping[str, Any], blocks: 
     found = ((name, _of_unit(name, namespace)) for name in names_read(row))
     constants = tuple((name, value.unit) for name, value in found if isinstance(value, units.Constant))
     row = row._replace(constants=constants) if constants else row
+    known = shapes(row, namespace)
+    row = row._replace(shapes=known) if known else row
     solved = tuple((name, blocks[name]) for name in names_read(row) if name in blocks)
     return row._replace(solved=solved) if solved and isinstance(row, Formula) else row
 
