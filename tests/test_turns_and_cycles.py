@@ -20,7 +20,7 @@ from tests.own_worksheet import written
 
 SHEET = written(
     """
-from numpy import linspace, maximum, pi
+from numpy import linspace, maximum, pi, sqrt
 
 from mechsheet import ask, inputs, read
 from mechsheet.units import Hz, deg, min, rpm, s
@@ -32,6 +32,10 @@ f: float = 20 * Hz  # [Hz] frequency
 k: float = 3 / s  # [1/s] rate
 z: float = 3.5  # [-] ratio
 phi: float = 30 * deg  # [deg] angle
+c: float = 2000.0  # [N/m] stiffness; > 0
+m: float = 20.0  # [kg] mass; > 0
+F: float = 100.0  # [N] tension; > 0
+L: float = 2.0  # [m] length; > 0
 """,
     """
 n_1 = 1 * g.n  # [rpm] speed
@@ -120,6 +124,16 @@ RIGHT = [
     "f_1 = g.n / (360 * deg)  # [Hz] turns in time",
     "f_1 = g.z * g.f  # [1/min] cycles",
     "f_1 = g.n * linspace(0, 1 / (2 * pi), 5)  # [Hz] turns in time",
+    "f_1 = sqrt(g.c / g.m) / (2 * pi)  # [Hz] natural frequency",
+    "f_1 = sqrt(g.c / (4 * pi**2 * g.m))  # [Hz] natural frequency",
+    "f_1 = sqrt(g.c / g.m) / 6.283  # [Hz] natural frequency",
+    "f_1 = sqrt(g.F / (g.m * g.L)) / 2  # [Hz] first tone of a string",
+    "f_1 = sqrt(g.F / (4 * g.m * g.L))  # [Hz] first tone of a string",
+    "f_1 = sqrt(g.c / g.m)  # [1/s] natural frequency",
+    "f_1 = sqrt(g.f**2 + (g.n / (2 * pi)) ** 2)  # [Hz] of two at once",
+    "f_1 = sqrt(1 / (1 / g.f**2 + 1 / (2 * g.f) ** 2))  # [Hz] of two at once",
+    "a = 9.81  # [m/s**2] gravity\n    t = 0.5  # [s] time\n    f_1 = sqrt(a / (a * t**2))  # [Hz] frequency",
+    "w = sqrt(g.c / g.m)  # [rad/s] angular frequency\n    w_1 = sqrt(g.omega**2 - w**2)  # [rpm] damped",
 ]
 WRONG = {
     "f_1 = 1 * g.n  # [Hz] turns in time": "[Hz] does not fit; the value is an angle in time, as in [rpm], until",
@@ -128,6 +142,10 @@ WRONG = {
     "w = g.f / g.z  # [rad/s] speed": "[rad/s] does not fit; the value is cycles in time, as in [Hz], until it is mult",
     "w = 3 * rpm * 2  # [Hz] speed": "[Hz] does not fit",
     "w = 2 * n_1 * linspace(0, 1, 3)  # [kHz] speed": "[kHz] does not fit",
+    "f_1 = sqrt(g.c / g.m)  # [Hz] natural frequency": "[Hz] does not fit; the value is an angle in time",
+    "f_1 = sqrt(3 * g.c / g.m * linspace(1, 2, 3))  # [kHz] frequency": "the value is an angle in time, as in [rad/s]",
+    "q = g.c / g.m  # [1/s**2] square\n    f_1 = (q + q / 3) ** 0.5  # [1/min] natural": "the value is an angle",
+    "f_1 = sqrt(g.F / (g.m * g.L))  # [1/min] pendulum": "until it is divided by 2*pi",
     "w = 1450 * rpm  # [1/min] speed": "[1/min] is not shown as rpm: write it in [rpm]",
 }
 
@@ -144,7 +162,7 @@ def test_a_missing_2_pi_is_told_at_its_line(line: str, tmp_path: Path) -> None:
     path = tmp_path / "wrong.py"
     path.write_text(SHEET.replace("LINES", line), encoding="utf-8")
     (mistake,) = mismatches(path)
-    assert WRONG[line] in str(mistake) and mistake.part == line.split()[0]
+    assert WRONG[line] in str(mistake) and mistake.part == line.split("\n")[-1].split()[0]
 
 
 def test_an_input_in_turns_is_not_shown_as_another_number(tmp_path: Path) -> None:

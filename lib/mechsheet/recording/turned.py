@@ -8,6 +8,7 @@ import numpy as np
 
 from mechsheet import units
 from mechsheet.quantities.node import Node
+from mechsheet.recording.codes import only
 from mechsheet.recording.dimension_rules import Reader
 from mechsheet.recording.pinpoint import Mistake
 from mechsheet.worksheet import numbers
@@ -16,7 +17,9 @@ from mechsheet.worksheet.lines import Formula
 # Of these the result counts what the first operand that counts does.
 _SAME = ("neg", "abs", "add", "sub", "max", "min", "where", "take", "at", "join", "reduce", "round", "floor", "like")
 _OF_NUMBERS = ("neg", "abs", "add", "sub", "mul", "div", "max", "min")
+_COUNTS = ("rows", "length")
 _TURNS = (2 * pi, 2 * pi * 60, 2 * pi / 60)
+_TIME = units.parse("s").dims
 _DEEPEST = 8  # operations between a line and what it is a multiple of
 _TYPED = 1e-3  # how far a rounded one of these is off: 9.55 for 60/(2*pi)
 
@@ -27,7 +30,8 @@ def turned(reader: Reader) -> Iterator[Mistake]:
         for line in lines:
             if not units.kind(line.unit):
                 continue
-            own = _Counted(reader, line).unit(node, _DEEPEST)
+            counted = _Counted(reader, line)
+            own = counted.unit(node, _DEEPEST) or counted.of_root(node)
             if own and units.turned(own, line.unit) and "erratum" not in line.meaning:
                 angle = units.kind(own) == units.ANGLE
                 is_in, by = ("an angle in time", "divided") if angle else ("cycles in time", "multiplied")
@@ -61,15 +65,39 @@ class _Counted(NamedTuple):
             of = (a,) if self.plain(b, deep) else (b,) if node.op == "mul" and self.plain(a, deep) else ()
         return next(filter(None, (self.unit(operand, deep - 1) for operand in of)), "")
 
+    def of_root(self, node: Node) -> str:
+        """The unit of a natural frequency, the root of a stiffness over a mass; "" of anything else, a multiple too."""
+        if node.op != "sqrt" and not (node.op == "pow" and np.all(node.args[1].value == 0.5)):
+            return ""
+        is_rate = only(self.reader.codes[node], self.reader.of_unit("rad/s"))
+        return "rad/s" if is_rate and self.has_no_turns(node.args[0], _DEEPEST) else ""
+
+    def has_no_turns(self, node: Node, deep: int) -> bool:
+        """Whether a value under a root is made of no time and no rate, nor of a number that may be of turns."""
+        unit = self.told(node)
+        if unit and not (_is_of_time(unit) and units.kind(unit) == units.BARE and node.op not in ("input", "constant")):
+            return not _is_of_time(unit)
+        if node.op == "constant":
+            roots = np.sqrt(np.abs(node.value))
+            return not any(_holds_pi(x) or _holds_pi(x**2) or (x != 1 and x.is_integer()) for x in roots.flat)
+        if node.op in _COUNTS:
+            return True
+        return deep > 0 and node.op in _OF_NUMBERS and all(self.has_no_turns(x, deep - 1) for x in node.operands)
+
     def plain(self, node: Node, deep: int) -> bool:
         """Whether a node is a pure number in which no turn is hidden."""
         if unit := self.told(node):
             return units.parse(unit).dims == units.PURE and units.kind(unit) == units.BARE
         if node.op == "constant":
             return not any(map(_holds_pi, np.abs(node.value).flat))
-        if node.op in ("rows", "length"):
+        if node.op in _COUNTS:
             return True
         return deep > 0 and node.op in _OF_NUMBERS and all(self.plain(operand, deep - 1) for operand in node.operands)
+
+
+def _is_of_time(unit: str) -> bool:
+    dims = units.parse(unit).dims
+    return dims != units.PURE and not any(power for power, of_time in zip(dims, _TIME, strict=True) if not of_time)
 
 
 def _holds_pi(x: float) -> bool:
