@@ -221,8 +221,10 @@ class Run(LeavingOut, OfPositions):
         altered = facts.in_place | handed | reached  # names of arrays that may be others now
         differs: list[str] = []
         try:
-            if (others and not array) or (gone := facts.in_place & self.lost.keys() - self.names.keys()):
-                raise NotRecorded(OTHER_NAME) if others and not array else self.lost[min(gone)]
+            if others and not array:
+                raise NotRecorded(OTHER_NAME)
+            if gone := facts.in_place & self.lost.keys() - self.names.keys():
+                raise self.lost[min(gone)]
             for name in facts.calls:
                 if name in facts.renamed or statement.is_own(name, self.names, self.namespace):
                     raise NotRecorded(f"{name} is another function here than Python's own")
