@@ -1,14 +1,20 @@
 """Matrices as machines need them: natural frequencies over a mass matrix, bands, blocks; for other inputs too."""
 
+import ast
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from cells import run
 from in_tex import in_tex
 from never_stale import assert_never_stale
 from own_worksheet import own, recorded
 
+from mechsheet import find
 from mechsheet.page.values import html
+from mechsheet.worksheet.lines import Formula
+from mechsheet.worksheet.shapes import shapes
 
 OVER = "M = np.array([[1.0, 0.2], [0.2, g.a + 1]])\nK = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\n"
 FOLLOWED = [
@@ -77,3 +83,10 @@ def test_products_by_elements_are_told_from_those_of_matrices(line: str, formula
         f"v = A[0]\nw = B[0]\nR = np.ones((2, 3))\nk = 2.0\ny = {line}  # [-] result\nshown = typeset()"
     )
     assert formula in in_tex(html(names["shown"]))
+
+
+def test_shapes_are_of_what_is_kept_and_ask_for_nothing() -> None:
+    """A Find without a root raises where its value is asked for: its line was not shown, and no later one was."""
+    namespace = {"found": find(np.sin, 0, 1, equals=2), "A": np.eye(2), "g": SimpleNamespace(B=np.eye(3)), "k": 2.0}
+    row = Formula("x", ast.parse("found.value * k + A @ g.B", mode="eval").body, "-", "")
+    assert shapes(row, namespace) == (("k", ()), ("A", (2, 2)), ("g.B", (3, 3)))

@@ -22,7 +22,12 @@ def is_square(shape: Shape) -> bool:
 def _known(row: Formula | Given, namespace: Mapping[str, Any]) -> Iterator[tuple[str, Shape]]:
     for name in names_read(row):
         head, *parts = name.split(".")
-        value = reduce(lambda of, part: getattr(of, part, None), parts, namespace.get(head))
+        value = reduce(_kept, parts, namespace.get(head))
         shape = () if isinstance(value, int | float) else getattr(value, "shape", None)
         if isinstance(shape, tuple) and not (isinstance(row, Formula) and name in row.others):
             yield name, shape
+
+
+def _kept(of: Any, part: str) -> Any:
+    """A part of a value, if it is there: to ask for the value of a Find without a root raises."""
+    return getattr(of, "__dict__", {}).get(part)
