@@ -62,7 +62,12 @@ CHROMIUM_FLAGS = [
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests by their fixtures and by what their file takes from where, so that no mark can be forgotten."""
+    """Mark tests by their fixtures and by what their file takes from where, so that no mark can be forgotten.
+
+    Those of the editor come first: they share one, each goes on where the one before it ended, and what stands at the
+    end of a process's tests is taken over by another process.
+    """
+    items.sort(key=lambda item: item.path.name != "test_editor.py")
     for item in items:
         fixtures = getattr(item, "fixturenames", ())
         for program, mark in {"chromium": "browser", "soffice": "office"}.items():
