@@ -158,10 +158,22 @@ TAKEN = [
     "L = [x * g.F, x * g.a]\nfor i in range(2):\n    v = L[i]\n    v *= 2\ny = L[0] + L[1] * v",
     "w = x * g.F\nfor i in range(3):\n    v = w[i]\n    v *= 2\ny = w",  # a number
     "d = {0: 1.0, 1: g.F}\nfor k in (0, 1):\n    v = d[k]\n    v *= g.a\ny = d[0] + d[1] * v",
+    # Copies, which change nothing of the array:
+    f"{ROWS_OF}for i in ([0, 2], np.array([1])):\n    r = A[i]\n    r *= np.maximum(1, g.a)\ny = A.ravel() * r[0, 0]",
+    f"{ROWS_OF}for i in [(0, 1), (1, 2)]:\n    row = A[i]\n    row *= np.maximum(1.0, g.a)\ny = A.ravel() * row",
+    f"{ROWS_OF}for i in [True, False]:\n    row = A[i]\n    row *= np.maximum(1.0, g.a)\ny = A.ravel()",
+    f"{ROWS_OF}for i in [A[:, 0] < 2, A[:, 0] >= 2]:\n    row = A[i]\n    row *= np.maximum(1.0, g.a)\ny = A.ravel()",
+    f"{ROWS_OF}for i in [slice(0, 2), (2, slice(1))]:\n    part = A[i]\n    part *= g.a\ny = A.ravel()",  # and parts
+    f"f = lambda r: abs(r).max()\n{ROWS_OF}for i in range(3):\n    r = A[i]\n    r /= f(r)\ny = A.ravel()",
 ]
 TAKEN_TOLD = [
     f"{ROWS_OF}for i in range(3):\n    row = A[i]\n    row /= A.sum() * g.a\ny = A.ravel()",
     f"{ROWS_OF}B = A\nfor i in range(3):\n    row = A[i]\n    row /= row.sum() * g.a\ny = B.ravel()",
+    # Functions that read the array while a row of it is taken out:
+    f"{ROWS_OF}s = lambda: A.sum()\nfor i in range(3):\n    row = A[i]\n    row /= np.maximum(1, s())\ny = A.ravel()",
+    f"{ROWS_OF}def s(i):\n    return A[i].max()\ndef t(i):\n    return s(i)\nfor i in range(3):\n    r = A[i]\n"
+    "    r -= np.minimum(r, 0)\n    r /= t(i)\ny = A.ravel()",
+    f"{ROWS_OF}def s(k):\n    return A.sum() * k\nfor row in A:\n    row /= max(map(s, [1, 2]))\ny = A.ravel()",
     "d = {0: x * 1.0, 1: x * g.F}\nfor k in (0, 1):\n    v = d[k]\n    v *= g.a\ny = d[0] + d[1]",
 ]
 

@@ -11,7 +11,7 @@ from in_tex import in_tex
 from never_stale import assert_never_stale
 from own_worksheet import own, recorded
 
-from mechsheet import find
+from mechsheet import evaluate, find
 from mechsheet.page.values import html
 from mechsheet.worksheet.lines import Formula
 from mechsheet.worksheet.shapes import shapes
@@ -35,6 +35,12 @@ FOLLOWED = [
     "K = 2 * np.diag([g.F] * 3) - np.diag([g.a] * 2, 1) - np.diag([g.a] * 2, -1)\ny = np.linalg.solve(K, [1, 0, g.F])",
     "y = np.diag(x * g.a, 2).ravel()",
 ]
+GRADED = [
+    "[2.0, 30, 16, 293, 590, 7086, 10232, 94726, 6]",
+    "[4.0**i for i in range(9)]",
+    "[10.0**-i for i in range(8)] + [0]",
+    "[1e5, 1, 1e4, 10, 1e3, 1e5, 1, 1e4, 0]",
+]
 EIGEN = "K = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\nw, V = np.linalg.eigh(K)\n"
 
 
@@ -42,6 +48,21 @@ EIGEN = "K = np.array([[2 * g.F, -g.F], [-g.F, g.F]])\nw, V = np.linalg.eigh(K)\
 def test_matrices_follow(lines: str, tmp_path: Path) -> None:
     assert_never_stale(lines, tmp_path)
     assert not recorded(own(tmp_path, lines))[1].gaps
+
+
+@pytest.mark.parametrize("stiffness", GRADED)
+def test_frequencies_of_unlike_springs_are_right(stiffness: str, tmp_path: Path) -> None:
+    """Rotations that are enough for springs alike left a part in a hundred in the lowest."""
+    lines = (
+        f"k = np.array({stiffness}) * g.F\n"
+        "y = np.linalg.eigvalsh(np.diag(k[:-1] + k[1:]) - np.diag(k[1:-1], 1) - np.diag(k[1:-1], -1))"
+    )
+    sheet = own(tmp_path, f"{lines}\nresult = y * 1  # [-] line")
+    for F in (2.0, 3.0, 4.0):  # by the cells at first, then by what is recorded
+        k = np.array(eval(stiffness)) * F
+        known = np.linalg.eigvalsh(np.diag(k[:-1] + k[1:]) - np.diag(k[1:-1], 1) - np.diag(k[1:-1], -1))
+        found = evaluate(sheet.path, ["result"], F=F)["result"]
+        np.testing.assert_allclose(found, known, rtol=1e-9, atol=2e-14 * known[-1])
 
 
 @pytest.mark.parametrize(

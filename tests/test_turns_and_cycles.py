@@ -129,6 +129,11 @@ RIGHT = [
     "f_1 = sqrt(g.c / g.m) / 6.283  # [Hz] natural frequency",
     "f_1 = sqrt(g.F / (g.m * g.L)) / 2  # [Hz] first tone of a string",
     "f_1 = sqrt(g.F / (4 * g.m * g.L))  # [Hz] first tone of a string",
+    "f_1 = sqrt(3 * g.c / (8 * pi**2 * g.m))  # [Hz] natural frequency",
+    "m_1 = 4 * pi**2 * g.m  # [kg] as a step\n    f_1 = sqrt(g.c / m_1)  # [Hz] natural frequency",
+    "L_1 = 2 * g.L  # [m] of a wave\n    f_1 = sqrt(g.F * g.L / (g.m * L_1 * L_1))  # [Hz] first tone of a string",
+    "f_1 = sqrt(g.F / (8 * g.m * g.L))  # [1/min] of a ball that bounces",
+    "f_1 = sqrt(g.z * g.c / g.m)  # [Hz] by a coefficient of a handbook",
     "f_1 = sqrt(g.c / g.m)  # [1/s] natural frequency",
     "f_1 = sqrt(g.f**2 + (g.n / (2 * pi)) ** 2)  # [Hz] of two at once",
     "f_1 = sqrt(1 / (1 / g.f**2 + 1 / (2 * g.f) ** 2))  # [Hz] of two at once",
@@ -143,8 +148,8 @@ WRONG = {
     "w = 3 * rpm * 2  # [Hz] speed": "[Hz] does not fit",
     "w = 2 * n_1 * linspace(0, 1, 3)  # [kHz] speed": "[kHz] does not fit",
     "f_1 = sqrt(g.c / g.m)  # [Hz] natural frequency": "[Hz] does not fit; the value is an angle in time",
-    "f_1 = sqrt(3 * g.c / g.m * linspace(1, 2, 3))  # [kHz] frequency": "the value is an angle in time, as in [rad/s]",
-    "q = g.c / g.m  # [1/s**2] square\n    f_1 = (q + q / 3) ** 0.5  # [1/min] natural": "the value is an angle",
+    "f_1 = sqrt((g.c + g.c) / maximum(g.m, 1 * g.m))  # [kHz] frequency": "the value is an angle in time, as in",
+    "q = g.c / g.m  # [1/s**2] square\n    f_1 = (q + q) ** 0.5  # [1/min] natural": "the value is an angle",
     "f_1 = sqrt(g.F / (g.m * g.L))  # [1/min] pendulum": "until it is divided by 2*pi",
     "w = 1450 * rpm  # [1/min] speed": "[1/min] is not shown as rpm: write it in [rpm]",
 }
@@ -163,6 +168,39 @@ def test_a_missing_2_pi_is_told_at_its_line(line: str, tmp_path: Path) -> None:
     path.write_text(SHEET.replace("LINES", line), encoding="utf-8")
     (mistake,) = mismatches(path)
     assert WRONG[line] in str(mistake) and mistake.part == line.split("\n")[-1].split()[0]
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ('f_1 = sqrt(g.c / g.m) / (2 * pi)  # [Hz] own\n    slow = check("speed", f_1, g.n, "rpm")', "[rpm] and [Hz]"),
+        ('slow = check("speed", g.n, g.f, "Hz")', "[Hz] and [rpm]"),
+        ('slow = check("speed", g.omega, 60 * Hz, "rpm")', "[rpm] and [Hz]"),
+        ('w = sqrt(g.c / g.m)  # [rad/s] own\n    slow = check("speed", w, 60 * Hz, "Hz")', "[Hz] and [rad/s]"),
+        ('slow = check("speed", g.n, at_least=g.omega, unit="Hz")', "[Hz] and [rpm]"),
+    ],
+)
+def test_a_check_compares_no_turns_with_cycles(line: str, told: str, tmp_path: Path) -> None:
+    """1693 rpm kept a limit of 1500: as 28 Hz, beside the 157 rad/s that the limit is."""
+    path = tmp_path / "checked.py"
+    text = SHEET.replace("LINES", line).replace("import ask,", "import ask, check,")
+    path.write_text(text, encoding="utf-8")
+    (mistake,) = mismatches(path)
+    assert mistake.part == "check 'speed'" and told in mistake.why
+
+
+def test_checks_of_turns_or_of_cycles_alone_are_right(tmp_path: Path) -> None:
+    for k, line in enumerate(
+        (
+            'slow = check("speed", g.n, g.omega, "rpm")',
+            'slow = check("frequency", g.f, 60 * Hz, "1/min")',
+            'slow = check("speed", g.f * 2 * pi, g.n, "rpm")',
+            'slow = check("rate", g.k, g.omega, "1/s")',
+        )
+    ):
+        path = tmp_path / f"checked_{k}.py"
+        path.write_text(SHEET.replace("LINES", line).replace("import ask,", "import ask, check,"), encoding="utf-8")
+        assert mismatches(path) == [], line
 
 
 def test_an_input_in_turns_is_not_shown_as_another_number(tmp_path: Path) -> None:

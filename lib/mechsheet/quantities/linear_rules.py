@@ -18,7 +18,7 @@ from mechsheet.quantities.truths import summed
 _MOST = 40  # equations, far fewer where most coefficients are no zeros: what a line may compute ends it before
 _OF_STRESS, _OF_FRAME = 3, 8  # rows of a symmetric matrix whose eigenvalues are recorded; the last where no cell is
 _NONE = 1e-20  # of all elements together: no digit of an eigenvalue, and no number in cells once it is squared
-_SWEEPS = 5, 7  # of Jacobi's rotations: of three rows the third one reaches the last digits, of eight the sixth
+_SWEEPS = 5, 10  # of Jacobi's rotations: of three rows the third one reaches the last digits, of eight the eighth
 _TOO_MANY = f"a system of more than {_MOST} linear equations"
 
 

@@ -5,10 +5,12 @@ A row is taken out for its turn, and what it is then is put back.
 
 import ast
 from collections.abc import Callable, Iterable
+from types import CodeType, FunctionType
 from typing import Any
 
 import numpy as np
 
+from mechsheet.quantities.graph import NotRecorded
 from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.choices import UNBOUND, element
 from mechsheet.recording.forms import call, later
@@ -64,7 +66,7 @@ def through_rows(node: ast.For, function: ast.FunctionDef | None) -> list[ast.st
         place, known = f"recorded place {of.id}", ast.Name(of.id, ast.Load())
         own_row = ast.List([ast.Name(row.id, ast.Load())], ast.Load())
         others |= {id(row): ast.Name(place, ast.Store()), id(of): call("places", node, later(known))}
-        out = call("row_out", node, known, ast.Name(place, ast.Load()))
+        out = call("row_out", node, known, ast.Name(place, ast.Load()), *_used(node.body, row.id, of.id))
         begin.append(ast.Assign([ast.Name(row.id, ast.Store())], out))
         end += bound_anew(node, of.id, "put_back", ast.Name(place, ast.Load()), own_row)
         left: ast.expr = ast.Name("recorded unbound", ast.Load())
@@ -94,7 +96,8 @@ def _through_taken(node: ast.For, function: ast.FunctionDef | None) -> list[ast.
     if function and of not in bound_in(function):
         return []
     array, own_row = ast.Name(of, ast.Load()), ast.List([ast.Name(row, ast.Load())], ast.Load())
-    begin = ast.Assign([ast.Name(row, ast.Store())], call("row_out", node, array, place))
+    out = call("row_out", node, array, place, *_used(rest, row, of))
+    begin = ast.Assign([ast.Name(row, ast.Store())], out)
     loop = ast.For(node.target, node.iter, [begin, *rest, *bound_anew(node, of, "put_back", place, own_row)], [])
     left: ast.expr = ast.Name("recorded unbound", ast.Load())
     if not function:
@@ -110,6 +113,33 @@ def _named(parts: list[ast.AST]) -> tuple[set[str], set[str]]:
     names = [part for part in parts if isinstance(part, ast.Name)]
     stored = {part.id for part in names if not isinstance(part.ctx, ast.Load) and id(part) not in added}
     return {part.id for part in names}, stored
+
+
+def _used(lines: list[ast.stmt], row: str, of: str) -> list[ast.expr]:
+    """The name of what a row is out of, and all that its turn may call."""
+    names, bound = _named([part for line in lines for part in ast.walk(line)])
+    return [ast.Constant(of), *(ast.Name(name, ast.Load()) for name in sorted(names - bound - {row, of}))]
+
+
+def _reads(f: Any, name: str, seen: set[FunctionType]) -> bool:
+    """Whether a function of the worksheet's, or one that it calls, reads a name."""
+    if not isinstance(f, FunctionType) or f in seen:
+        return False
+    seen.add(f)
+    codes = [f.__code__]
+    for code in codes:
+        codes += [part for part in code.co_consts if isinstance(part, CodeType)]
+    named = {each for code in codes for each in (*code.co_names, *code.co_freevars)}
+    held = (cell.cell_contents for cell in f.__closure__ or ())
+    return name in named or any(_reads(g, name, seen) for g in (*map(f.__globals__.get, named), *held))
+
+
+def _is_view(place: Any) -> bool:
+    """Whether what an index takes is a part of the array itself; of a list, an array or a condition it is a copy."""
+    if isinstance(place, tuple):
+        return all(map(_is_view, place))
+    is_condition = getattr(place, "dtype", np.dtype(float)).kind == "b"
+    return not isinstance(place, list | bool) and not is_condition and not np.ndim(place)
 
 
 def _changes(parts: list[ast.AST], row: str) -> bool:
@@ -135,8 +165,11 @@ def places(now: Callable[[], Any]) -> Iterable[Any]:
     return range(len(several)) if type(several) in (np.ndarray, Quantity, list) else map(_Itself, several)
 
 
-def row_out(items: Any, place: Any) -> Any:
-    """An element, which is a row by itself, or out of its list."""
+def row_out(items: Any, place: Any, of: str, *used: Any) -> Any:
+    """An element, which is a row by itself, or out of its list; no function that is ``used`` may read that."""
+    seen = set[FunctionType]()
+    if any(_reads(f, of, seen) for f in used):
+        raise NotRecorded(f"{of} is read by a function while a row of it is changed")
     if isinstance(place, _Itself):
         return place.element
     if is_array(items):
@@ -156,6 +189,8 @@ def put_back(items: Any, place: Any, rows: list[Any]) -> Any:
         settled(rows[0])
     if isinstance(place, _Itself) or not is_array(items) or items.ndim == 1:
         return items
+    if not (_is_view(place) and np.ndim(items[place])):
+        return items
     unshared(rows)
     return put(items, place, rows[0])
 
@@ -166,8 +201,9 @@ def last_row(items: Any, row: Any) -> Any:
 
 
 def row_again(items: Any, place: Callable[[], Any], row: Any) -> Any:
-    """What the name of a row that was taken out stands for behind the loop: that row of the array."""
-    return element(items, place()) if row is not UNBOUND and is_array(items) and items.ndim > 1 else row
+    """What the name of a row that was taken out stands for behind the loop: that row of the array, or its copy."""
+    is_part = row is not UNBOUND and is_array(items) and items.ndim > 1 and _is_view(at := place()) and np.ndim(row)
+    return element(items, at) if is_part else row
 
 
 CALLS: dict[str, Any] = {

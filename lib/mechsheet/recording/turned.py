@@ -1,6 +1,7 @@
 """A factor of 2 pi that is missing between an angle and cycles in time, which have the same dimensions."""
 
 from collections.abc import Iterator
+from itertools import combinations
 from math import isclose, pi
 from typing import NamedTuple
 
@@ -17,7 +18,6 @@ from mechsheet.worksheet.lines import Formula
 # Of these the result counts what the first operand that counts does.
 _SAME = ("neg", "abs", "add", "sub", "max", "min", "where", "take", "at", "join", "reduce", "round", "floor", "like")
 _OF_NUMBERS = ("neg", "abs", "add", "sub", "mul", "div", "max", "min")
-_COUNTS = ("rows", "length")
 _TURNS = (2 * pi, 2 * pi * 60, 2 * pi / 60)
 _TIME = units.parse("s").dims
 _DEEPEST = 8  # operations between a line and what it is a multiple of
@@ -37,13 +37,22 @@ def turned(reader: Reader) -> Iterator[Mistake]:
                 is_in, by = ("an angle in time", "divided") if angle else ("cycles in time", "multiplied")
                 why = f"unit [{line.unit}] does not fit; the value is {is_in}, as in [{own}], until it is {by} by 2*pi"
                 yield Mistake(reader.places.line_of(line), line.name, why)
+    for name, check in reader.recording.checks.items():
+        counted = _Counted(reader)
+        nodes = (*check.parts, check.limit)
+        known = [check.unit, *(counted.unit(node, _DEEPEST) for node in nodes)]
+        turns = next(((a, b) for a, b in combinations(filter(None, known), 2) if units.turned(a, b)), None)
+        if turns:
+            line_of = reader.places.of_check(name, [node.line for node in nodes])
+            why = "an angle and cycles in time, as in [{}] and [{}], are compared: 2*pi stands between them"
+            yield Mistake(line_of, f"check {name!r}", why.format(*turns))
 
 
 class _Counted(NamedTuple):
     """What the value of a line is a multiple of, by the units that other lines and inputs declare."""
 
     reader: Reader
-    line: Formula
+    line: Formula | None = None
 
     def told(self, node: Node) -> str:
         """The unit of an input, of a constant, or of what another line makes; "" of anything else."""
@@ -70,19 +79,16 @@ class _Counted(NamedTuple):
         if node.op != "sqrt" and not (node.op == "pow" and np.all(node.args[1].value == 0.5)):
             return ""
         is_rate = only(self.reader.codes[node], self.reader.of_unit("rad/s"))
-        return "rad/s" if is_rate and self.has_no_turns(node.args[0], _DEEPEST) else ""
+        return "rad/s" if is_rate and self.is_of_quantities(node.args[0], _DEEPEST) else ""
 
-    def has_no_turns(self, node: Node, deep: int) -> bool:
-        """Whether a value under a root is made of no time and no rate, nor of a number that may be of turns."""
-        unit = self.told(node)
-        if unit and not (_is_of_time(unit) and units.kind(unit) == units.BARE and node.op not in ("input", "constant")):
-            return not _is_of_time(unit)
-        if node.op == "constant":
-            roots = np.sqrt(np.abs(node.value))
-            return not any(_holds_pi(x) or _holds_pi(x**2) or (x != 1 and x.is_integer()) for x in roots.flat)
-        if node.op in _COUNTS:
-            return True
-        return deep > 0 and node.op in _OF_NUMBERS and all(self.has_no_turns(x, deep - 1) for x in node.operands)
+    def is_of_quantities(self, node: Node, deep: int) -> bool:
+        """Whether a value is made of no time, no rate and no number: 4 may be of a string, 8*pi**2 of turns."""
+        unit = self.told(node) or next((line.unit for line in self.reader.declared.get(node, ())), "")
+        if node.op in ("input", "constant"):
+            return not _is_of_time(unit) if unit else bool(np.all(node.value == 1))
+        if unit and units.kind(unit) != units.BARE:
+            return False
+        return deep > 0 and node.op in _OF_NUMBERS and all(self.is_of_quantities(x, deep - 1) for x in node.operands)
 
     def plain(self, node: Node, deep: int) -> bool:
         """Whether a node is a pure number in which no turn is hidden."""
@@ -90,14 +96,14 @@ class _Counted(NamedTuple):
             return units.parse(unit).dims == units.PURE and units.kind(unit) == units.BARE
         if node.op == "constant":
             return not any(map(_holds_pi, np.abs(node.value).flat))
-        if node.op in _COUNTS:
+        if node.op in ("rows", "length"):
             return True
         return deep > 0 and node.op in _OF_NUMBERS and all(self.plain(operand, deep - 1) for operand in node.operands)
 
 
 def _is_of_time(unit: str) -> bool:
-    dims = units.parse(unit).dims
-    return dims != units.PURE and not any(power for power, of_time in zip(dims, _TIME, strict=True) if not of_time)
+    """Whether a unit is of time alone, or of nothing."""
+    return not any(power for power, of_time in zip(units.parse(unit).dims, _TIME, strict=True) if not of_time)
 
 
 def _holds_pi(x: float) -> bool:
