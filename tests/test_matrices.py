@@ -95,6 +95,14 @@ def test_what_is_of_now_alone_is_named(lines: str, told: str, tmp_path: Path) ->
         ("k * v * w + A / k", r"k\,v\,w + \frac{A}{k}"),
         ("R * R", r"R\,R"),  # of which there is no product of matrices
         ("A[:, 0] * v", r"A_{\text{:},0}\,v"),
+        ("A * v[:, None]", "A ⊙ v"),
+        ("np.linalg.det(A) * A * B", r"(\mathrm{det}(A)\,A) ⊙ B"),
+        ("A * v[0] * np.linalg.norm(v) * B", r") ⊙ B"),
+        ("np.linalg.solve(A, B) * A", r"\left(A^{-1}\,B\right) ⊙ A"),
+        ("A * np.eye(2) * [[1, 2], [3, 4]]", r"(A ⊙ \mathrm{eye}(2)) ⊙ \begin{bmatrix}"),
+        ("(A if k > 1 else B) * A[0:2, 0:2]", "⊙ A_{"),
+        ("np.sin(A) ** 2 + 2**A", r"(\sin\,A)^{\text{⊙}2} + 2^{\text{⊙}A}"),
+        ("np.array([A**2 for A in v])", "A^{2}"),
     ],
 )
 def test_products_by_elements_are_told_from_those_of_matrices(line: str, formula: str) -> None:

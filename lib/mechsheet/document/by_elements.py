@@ -3,16 +3,18 @@
 import ast
 from collections.abc import Mapping
 from copy import deepcopy
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
 from mechsheet.document import names
-from mechsheet.document.formula import POWER, SIGN, WHOLE, Binary, Node, Power, Prefix, Text
+from mechsheet.document.formula import POWER, SIGN, WHOLE, Binary, Brackets, Node, Power, Prefix, Text
 from mechsheet.document.functions import Reader
 from mechsheet.worksheet.shapes import Shape, is_square
 
-_LINEAR = ("linalg.inv", "linalg.matrix_power", "inv", "matrix_power")  # of the same shape as the matrix
+_ALIKE = ("linalg.inv", "linalg.matrix_power", "inv", "matrix_power", "copy", "round")  # of the shape of the first
+_NUMBERS = ("det", "linalg.det", "trace", "len", "float", "int")
+_REDUCED = ("sum", "max", "min", "mean", "prod", "norm", "linalg.norm")  # numbers where no axis is told
 
 
 def marked(part: ast.expr, shapes: Mapping[str, Shape]) -> ast.expr:
@@ -25,8 +27,10 @@ def marked(part: ast.expr, shapes: Mapping[str, Shape]) -> ast.expr:
     ...     return [ast.unparse(node) for node in ast.walk(part) if is_marked(node)]
     >>> of("k * A * B + A @ B"), of("2 * A.T * v"), of("A**2 / (v @ v)"), of("np.multiply(inv(A), B)"), of("v * v / 2")
     (['k * A * B'], ['2 * A.T * v'], ['A ** 2'], ['inv(A) * B'], [])
-    >>> of("A @ v * v"), of("k / A / v"), of("A / k"), of("sqrt(A) * v")
-    (['A @ v * v'], ['k / A'], [], ['sqrt(A) * v'])
+    >>> of("A @ v * v"), of("k / A / v"), of("A / k"), of("sqrt(A) * v"), of("[A**2 for A in v]")
+    (['A @ v * v'], ['k / A'], [], ['sqrt(A) * v'], [])
+    >>> of("det(A) * A * v[0]"), of("A * eye(2)"), of("A * v[:, None]"), of("A[0] * v"), of("[[k, 1], [2, k]] * A")
+    ([], ['A * eye(2)'], ['A * v[:, None]'], [], ['[[k, 1], [2, k]] * A'])
     """
     return cast("ast.expr", _Marking(shapes).visit(deepcopy(part))) if shapes else part
 
@@ -39,18 +43,29 @@ def read(reader: Reader, node: ast.BinOp) -> Node:
     """What is marked, with a sign that tells it from what matrices have; it is of all elements, and no numbers."""
     of = reader.symbols()
     if isinstance(node.op, ast.Pow):
-        return Power(of.least(node.left, WHOLE), Prefix(Text("⊙"), of.least(node.right, SIGN)))
-    return Binary(
-        of.least(node.left, POWER), "⊙" if isinstance(node.op, ast.Mult) else "⊘", of.least(node.right, POWER)
-    )
+        return Power(_closed(of.least(node.left, WHOLE)), Prefix(Text("⊙"), of.least(node.right, SIGN)))
+    sign = "⊙" if isinstance(node.op, ast.Mult) else "⊘"
+    return Binary(_closed(of.least(node.left, POWER)), sign, _closed(of.least(node.right, POWER)))
+
+
+def _closed(part: Node) -> Node:
+    """A part with brackets round a function and its angle, which would take in the sign behind it."""
+    return Brackets((part,)) if isinstance(part, Prefix) else part
 
 
 class _Marking(ast.NodeTransformer):
     def __init__(self, shapes: Mapping[str, Shape]) -> None:
         self.shapes = shapes
 
+    def visit_GeneratorExp(self, node: ast.GeneratorExp | ast.ListComp) -> ast.AST:
+        """A name of its own is no array that is called so."""
+        own = {n.id for part in node.generators for n in ast.walk(part.target) if isinstance(n, ast.Name)}
+        return _Marking({name: of for name, of in self.shapes.items() if name not in own}).generic_visit(node)
+
+    visit_ListComp = visit_GeneratorExp
+
     def visit(self, node: ast.AST) -> ast.AST:
-        node = self.generic_visit(node)
+        node = super().visit(node)
         match names.bare(node) if isinstance(node, ast.Call) and not hasattr(node, "is_own") else node:
             case ast.BinOp(op=ast.Mult() | ast.Div() | ast.Pow()) as product if self.is_by_elements(product):
                 product.by_elements = True  # type: ignore[attr-defined]
@@ -61,7 +76,7 @@ class _Marking(ast.NodeTransformer):
         left, right = self.shape(node.left) or (), self.shape(node.right) or ()
         match node.op:
             case ast.Pow():
-                return is_square(left)
+                return is_square(left) or is_square(right)
             case ast.Div():
                 return is_square(right)
         return bool(left and right) and any(map(_is_of_matrices, (node.left, node.right), (left, right)))
@@ -76,17 +91,48 @@ class _Marking(ast.NodeTransformer):
             case ast.Attribute(of, "T") | ast.Call(ast.Name("transpose"), [of], []):
                 shape = self.shape(of)
                 return shape and shape[::-1]
-            case ast.UnaryOp(operand=of):
+            case ast.UnaryOp(operand=of) | ast.Attribute(of, "real" | "imag"):
                 return self.shape(of)
-            case ast.Call(ast.Name(name), [of, *_]) if name in _LINEAR:
+            case ast.Call(ast.Name(name), [of, *_]) if name in _ALIKE:
                 return self.shape(of)
+            case ast.Call(ast.Name(name), args) if name in _NUMBERS or (name in _REDUCED and len(args) == 1):
+                return ()
+            case ast.Call(ast.Name("solve" | "linalg.solve"), [_, of], []):
+                return self.shape(of)
+            case ast.Call(ast.Name("eye" | "identity"), [ast.Constant(int(n))], []):
+                return (n, n)
+            case ast.Call(ast.Name("diag"), [of], []):
+                shape = self.shape(of)
+                return shape and (shape[:1] if len(shape) > 1 else 2 * shape)
+            case ast.Call(ast.Name("outer"), [first, second], []):
+                return (self.shape(first) or ()) + (self.shape(second) or ())
+            case ast.Call(ast.Name("array"), [of], []):
+                return self.shape(of)
+            case ast.List([first, *_] as elements):
+                shape = self.shape(first)
+                return None if shape is None else (len(elements), *shape)
+            case ast.Subscript(of, key):
+                return _taken(self.shape(of), key)
+            case ast.IfExp(_, first, second) | ast.Call(ast.Name("where"), [_, first, second], []):
+                return _broadcast(self.shape(first), self.shape(second))
+            case ast.Compare(first, _, [second]):
+                return _broadcast(self.shape(first), self.shape(second))
             case ast.BinOp(left, ast.MatMult(), right):
-                first, second = self.shape(left), self.shape(right)
-                return None if first is None or second is None else first[:-1] + second[1:]
+                rows, columns = self.shape(left), self.shape(right)
+                return None if rows is None or columns is None else rows[:-1] + columns[1:]
             case ast.BinOp(left, _, right):
                 return _broadcast(self.shape(left), self.shape(right))
             case ast.Call(ast.Name(name), args, []) if isinstance(getattr(np, name, None), np.ufunc):
                 return _broadcast(*map(self.shape, args))
+        return None
+
+
+def _taken(shape: Shape | None, key: ast.expr) -> Shape | None:
+    """The shape of what an index of numbers takes."""
+    try:
+        index: Any = eval(compile(ast.Expression(key), "", "eval"), {"__builtins__": {}})
+        return None if shape is None else np.broadcast_to(0.0, shape)[index].shape
+    except (NameError, AttributeError, IndexError, TypeError):  # by names, or of another array of that name
         return None
 
 

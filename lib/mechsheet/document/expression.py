@@ -79,8 +79,8 @@ def equation(line: Formula | Given, single: frozenset[str] = frozenset()) -> Nod
 
 
 def substituted(line: Formula, numbers: Mapping[str, Measure]) -> Node | None:
-    """Right side of a line with numbers for its symbols; None where it has none."""
-    if not numbers or not right(line):
+    """Right side of a line with numbers for its symbols; None where it has none, or reads matrices."""
+    if not numbers or not right(line) or line.shapes:
         return None
     expression = _written(line.expression, line)
     node = tree(expression, numbers)

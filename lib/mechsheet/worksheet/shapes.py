@@ -16,7 +16,8 @@ def shapes(row: Formula | Given, namespace: Mapping[str, Any]) -> tuple[tuple[st
 
 
 def is_square(shape: Shape) -> bool:
-    return len(shape) == 2 and shape[0] == shape[1] > 1
+    """Whether a shape is that of a square matrix, or of several."""
+    return len(shape) > 1 and shape[-2] == shape[-1] > 1
 
 
 def _known(row: Formula | Given, namespace: Mapping[str, Any]) -> Iterator[tuple[str, Shape]]:
