@@ -1,6 +1,6 @@
 """A factor of 2 pi that is missing between an angle and cycles in time, which have the same dimensions."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import combinations
 from math import isclose, pi
 from typing import NamedTuple
@@ -18,9 +18,10 @@ from mechsheet.worksheet.lines import Formula
 # Of these the result counts what the first operand that counts does.
 _SAME = ("neg", "abs", "add", "sub", "max", "min", "where", "take", "at", "join", "reduce", "round", "floor", "like")
 _OF_NUMBERS = ("neg", "abs", "add", "sub", "mul", "div", "max", "min")
+_TOGETHER = ("add", "sub", "max", "min", "lt", "le", "gt", "ge")
 _TURNS = (2 * pi, 2 * pi * 60, 2 * pi / 60)
 _TIME = units.parse("s").dims
-_DEEPEST = 8  # operations between a line and what it is a multiple of
+_DEEPEST, _NEAR = 8, 3  # operations between a line, or what any operation reads, and what it is a multiple of
 _TYPED = 1e-3  # how far a rounded one of these is off: 9.55 for 60/(2*pi)
 
 
@@ -37,15 +38,23 @@ def turned(reader: Reader) -> Iterator[Mistake]:
                 is_in, by = ("an angle in time", "divided") if angle else ("cycles in time", "multiplied")
                 why = f"unit [{line.unit}] does not fit; the value is {is_in}, as in [{own}], until it is {by} by 2*pi"
                 yield Mistake(reader.places.line_of(line), line.name, why)
+    counted = _Counted(reader)
     for name, check in reader.recording.checks.items():
-        counted = _Counted(reader)
         nodes = (*check.parts, check.limit)
-        known = [check.unit, *(counted.unit(node, _DEEPEST) for node in nodes)]
-        turns = next(((a, b) for a, b in combinations(filter(None, known), 2) if units.turned(a, b)), None)
-        if turns:
-            line_of = reader.places.of_check(name, [node.line for node in nodes])
-            why = "an angle and cycles in time, as in [{}] and [{}], are compared: 2*pi stands between them"
-            yield Mistake(line_of, f"check {name!r}", why.format(*turns))
+        if why := _compared([check.unit, *(counted.unit(node, _DEEPEST) for node in nodes)]):
+            yield Mistake(reader.places.of_check(name, [node.line for node in nodes]), f"check {name!r}", why)
+    if {units.ANGLE, units.CYCLES} <= {*map(units.kind, reader.used)}:
+        for node in reader.recording.graph.nodes.values():
+            if node.op in _TOGETHER and (why := _compared([counted.unit(x, _NEAR) for x in node.operands])):
+                reader.tell(node, why, node.operands)
+
+
+def _compared(several: Iterable[str]) -> str:
+    """Why quantities in these units are not added or compared; "" of those that are."""
+    for a, b in combinations(filter(None, several), 2):
+        if units.turned(a, b):
+            return f"an angle and cycles in time stand together, as in [{a}] and [{b}]: 2*pi is between them"
+    return ""
 
 
 class _Counted(NamedTuple):

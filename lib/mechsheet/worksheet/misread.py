@@ -19,6 +19,8 @@ def misread(unit: str, typed: str, expression: ast.expr) -> str:
                 return f"{ast.unparse(angle)} is in SI already: write it without {name}, [{typed}] converts it"
         case ast.BinOp(_, ast.Mult(), ast.Name(own)) if own in ("rpm", "Hz") and units.turned(own, unit):
             return f"unit [{typed}] is not shown as {own}: write it in [{own}]"
+        case ast.BinOp(ast.Constant(), ast.Div(), ast.Name("min" | "h" as own)) if units.turned(f"1/{own}", unit):
+            return f"unit [{typed}] is not shown as 1/{own}: write it in [1/{own}], or the number in {typed}"
     return ""
 
 
