@@ -3,7 +3,7 @@
 import ast
 from collections.abc import Mapping
 from copy import deepcopy
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 
@@ -129,9 +129,13 @@ class _Marking(ast.NodeTransformer):
 
 def _taken(shape: Shape | None, key: ast.expr) -> Shape | None:
     """The shape of what an index of numbers takes."""
+    if shape is None:
+        return None
+    part = ast.Subscript(ast.Name("the whole", ast.Load()), key, ast.Load())
+    code = compile(ast.fix_missing_locations(ast.Expression(part)), "", "eval")
     try:
-        index: Any = eval(compile(ast.Expression(key), "", "eval"), {"__builtins__": {}})
-        return None if shape is None else np.broadcast_to(0.0, shape)[index].shape
+        taken: Shape = eval(code, {"__builtins__": {}, "the whole": np.broadcast_to(0.0, shape)}).shape
+        return taken
     except (NameError, AttributeError, IndexError, TypeError):  # by names, or of another array of that name
         return None
 
