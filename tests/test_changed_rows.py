@@ -165,6 +165,8 @@ TAKEN = [
     f"{ROWS_OF}for i in [A[:, 0] < 2, A[:, 0] >= 2]:\n    row = A[i]\n    row *= np.maximum(1.0, g.a)\ny = A.ravel()",
     f"{ROWS_OF}for i in [slice(0, 2), (2, slice(1))]:\n    part = A[i]\n    part *= g.a\ny = A.ravel()",  # and parts
     f"f = lambda r: abs(r).max()\n{ROWS_OF}for i in range(3):\n    r = A[i]\n    r /= f(r)\ny = A.ravel()",
+    "def f():\n    A = np.outer(x[:3], x[:3])\n    def s(r):\n        return r.max() if len(r) else later(r)\n"
+    "    for i in range(3):\n        r = A[i]\n        r /= s(r) + g.a\n    later = max\n    return A\ny = f().ravel()",
 ]
 TAKEN_TOLD = [
     f"{ROWS_OF}for i in range(3):\n    row = A[i]\n    row /= A.sum() * g.a\ny = A.ravel()",

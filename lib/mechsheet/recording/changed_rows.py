@@ -5,7 +5,8 @@ A row is taken out for its turn, and what it is then is put back.
 
 import ast
 from collections.abc import Callable, Iterable
-from types import CodeType, FunctionType
+from itertools import chain
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from mechsheet.quantities.quantity import Quantity
 from mechsheet.recording.choices import UNBOUND, element
 from mechsheet.recording.forms import call, later
 from mechsheet.recording.in_place import is_array, put, settled, unshared
+from mechsheet.recording.memory import content, names_of
 from mechsheet.recording.own_arrays import bound_anew
 from mechsheet.recording.ways import bound_in, deleted
 from mechsheet.worksheet.altered import ARRANGING, pairs
@@ -126,11 +128,8 @@ def _reads(f: Any, name: str, seen: set[FunctionType]) -> bool:
     if not isinstance(f, FunctionType) or f in seen:
         return False
     seen.add(f)
-    codes = [f.__code__]
-    for code in codes:
-        codes += [part for part in code.co_consts if isinstance(part, CodeType)]
-    named = {each for code in codes for each in (*code.co_names, *code.co_freevars)}
-    held = (cell.cell_contents for cell in f.__closure__ or ())
+    named = {*names_of(f.__code__), *f.__code__.co_freevars}
+    held = chain.from_iterable(map(content, f.__closure__ or ()))
     return name in named or any(_reads(g, name, seen) for g in (*map(f.__globals__.get, named), *held))
 
 

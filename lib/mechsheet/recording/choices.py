@@ -25,7 +25,7 @@ from mechsheet.quantities.sketch import merged as merged_sketch
 from mechsheet.quantities.text_column import Texts, among, held_in
 from mechsheet.quantities.written import Either, OneOf, Written, either, said, text
 from mechsheet.recording import exactly
-from mechsheet.recording.memory import before_ways, may_change, one_of, stands_for_others, taken
+from mechsheet.recording.memory import before_ways, content, may_change, one_of, stands_for_others, taken
 from mechsheet.recording.raised import Refused, on_way, only
 from mechsheet.recording.sifted import Sifted, joined_kept
 from mechsheet.worksheet.chosen import Chosen, cases
@@ -228,7 +228,7 @@ def way_may_change(f: Callable[..., Any]) -> bool:
     """Whether a way that is not taken may change something in place."""
     if not isinstance(f, FunctionType):
         return False
-    inner = [c.cell_contents for c in f.__closure__ or () if isinstance(c.cell_contents, FunctionType)]
+    inner = [g for cell in f.__closure__ or () for g in content(cell) if isinstance(g, FunctionType)]
     if stands_for_others(f):
         return any(way_may_change(g) for g in inner if g is not f)
     return may_change([f.__code__, *(g.__code__ for g in inner)], f.__globals__)

@@ -270,7 +270,7 @@ def _kept(value: Any, own: Mapping[str, Any], within: frozenset[Any] = frozenset
     cells = value.__closure__ if isinstance(value, FunctionType) else None
     if not cells or value in _EMPTY or value in within:
         return []
-    held = (part for cell in cells for part in _content(cell) if not _of_this(part) or isinstance(part, Quantity))
+    held = (part for cell in cells for part in content(cell) if not _of_this(part) or isinstance(part, Quantity))
     inner = within | {value}
     kept = [x for x in held if not isinstance(x, _LEAVES) and not (_foreign(x, own) and not _kept(x, own, inner))]
     if not kept and not within:
@@ -305,7 +305,7 @@ def _parts(value: Any) -> list[Any] | None:
         case _ if type(value).__module__.partition(".")[0] == "pandas" and hasattr(value, "to_numpy"):
             return _of_frame(value)  # whose columns stand in what only its own code looks into
         case CellType():
-            return _content(value)
+            return content(value)
         case type():
             return [*vars(value).values(), *value.__bases__]
         case MethodType():
@@ -342,7 +342,7 @@ def _inside(value: Any) -> list[Any] | None:
     return [] if isinstance(value, np.ndarray) and value.dtype != object else _parts(value)
 
 
-def _content(cell: CellType) -> list[Any]:
+def content(cell: CellType) -> list[Any]:
     try:
         return [cell.cell_contents]
     except ValueError:  # it is empty
@@ -389,7 +389,7 @@ def _shared(*functions: Any) -> Mapping[str, Any]:
             seen.add(f)
             if not stands_for_others(f):
                 return f.__globals__
-            waiting[:0] = chain.from_iterable(map(_content, f.__closure__ or ()))
+            waiting[:0] = chain.from_iterable(map(content, f.__closure__ or ()))
     return {}
 
 
