@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import marimo
 import pytest
-from conftest import ROOT, alive, drawn, marimo_server, new_page, placed, until
+from conftest import ROOT, alive, drawn, in_sight, marimo_server, new_page, placed, until
 from playwright.sync_api import TimeoutError, expect
 from test_page import choose, choose_by_keys
 from written_cells import Values
@@ -949,6 +949,45 @@ def test_a_line_that_is_drawn_anew_under_the_pointer_is_clicked(editor):
     page.mouse.up()
     expect(page.locator(".ms-box textarea")).to_have_value(re.compile("^M_n = "))
     page.keyboard.press("Escape")
+
+
+def test_a_unit_that_moves_away_under_the_pointer_opens_no_line(editor):
+    """The browser tells of a click on what holds both it and what came there, which is the line."""
+    page = editor.page
+    editor.expect_last_moment("420")
+    unit = page.locator(".ms-table:has-text('Table 1 ') th ms-unit >> visible=true").first
+    in_sight(unit)
+    unit.hover()
+    page.evaluate(
+        """() => addEventListener('mousedown', ({ target }) => {
+            addEventListener('click', ({ target }) => (window.clicked = target.tagName), { once: true });
+            target.closest('table').style.marginTop = '40px';
+        }, { once: true })"""
+    )
+    page.mouse.down()
+    drawn(page)
+    page.mouse.up()
+    assert page.evaluate("window.clicked") not in (None, "MS-UNIT")
+    assert page.locator(".ms-edited").count() == 0
+    page.locator(".ms-table table >> visible=true").first.evaluate("table => (table.style.marginTop = '')")
+
+
+def test_what_stands_in_the_box_is_of_the_inputs_there_are(editor):
+    page, field = editor.page, editor.page.locator(".ms-inputs tr:has-text('force on the lever') input")
+    shown = page.locator(".ms-box .ms-typed tbody tr").last.locator("td").last
+    page.locator(".ms-table:has-text('Table 1 ') .ms-caption").first.click()
+    expect(shown).to_have_text("420")
+    field.fill("2400")
+    field.press("Enter")
+    expect(shown).to_have_text("840")
+    field.fill("12o0")
+    field.press("Enter")
+    expect(page.locator(".ms-box .ms-typed.ms-former")).to_have_count(1)
+    field.fill("1200")
+    field.press("Enter")
+    expect(shown).to_have_text("420")
+    expect(page.locator(".ms-box .ms-typed.ms-former")).to_have_count(0)
+    page.locator(".ms-box textarea").press("Escape")
 
 
 def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):

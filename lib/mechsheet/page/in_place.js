@@ -62,7 +62,8 @@
   chip.className = "ms-written";
   chip.role = "status";
   // What is edited: its place in the page, name, the line as it was, whether below it; busy while it is written; what is
-  // told because one clicked elsewhere, until one types again; how often to take back what is being written.
+  // told because one clicked elsewhere, and of the line as it was opened, until one types again; how often to take back
+  // what is being written.
   let of;
 
   const isTypedIn = () => area.value !== (of.below ? "" : of.was);
@@ -130,16 +131,17 @@
     }
     close();
     area.value = "";
-    const mine = (of = { place: host, name, was: "", below: false, from: focused() });
+    const mine = (of = { place: host, name, was: "", told: "", below: false, from: focused() });
     edit(host);
     typed.replaceChildren();
     const { line, why: told } = await turn.then(() => ask({ do: "open", name }));
     if (of !== mine) return;
-    why.textContent = told || (isUnsaved() ? UNSAVED : "");
+    of.told = told || (isUnsaved() ? UNSAVED : "");
+    explain(of.told);
     of.was = line ?? "";
     show(of.was);
     area.readOnly = line === undefined;
-    if (line) preview(why.textContent);
+    if (line) preview();
   }
 
   function below() {
@@ -173,7 +175,7 @@
   // One question at a time: what was typed meanwhile is asked for then.
   let timer;
   let asking = false;
-  async function preview(told = "") {
+  async function preview() {
     if (asking) return;
     const [mine, text] = [of, area.value];
     asking = true;
@@ -181,7 +183,7 @@
     asking = false;
     if (of && (of !== mine || area.value !== text)) return typing();
     if (!of || of.busy) return;
-    explain(answer.why ?? (isUnsaved() ? UNSAVED : told));
+    explain(answer.why ?? (isUnsaved() ? UNSAVED : of.told));
     typed.classList.toggle("ms-former", answer.shown === undefined);
     if (answer.shown === undefined) return;
     typed.innerHTML = answer.shown;
@@ -198,10 +200,13 @@
   area.addEventListener("beforeinput", (event) => of.busy && event.preventDefault()); // it would not be written
   area.addEventListener("input", () => {
     of.left = "";
+    of.told = "";
     of.sure = false; // of the text that was asked about
     offer();
     typing();
   });
+  // What stands there is of the inputs that the page computes with.
+  document.addEventListener("ms-used", () => of && !of.busy && typed.firstChild && typing());
 
   const inTurn = (act) => (turn = turn.then(act).catch(reportError)); // the next one has its turn all the same
 
@@ -381,13 +386,14 @@
   };
   document.addEventListener("keydown", opening, { capture: true });
 
+  let down; // where the button of the mouse was pressed, and the name of its line
   document.addEventListener("click", (event) => {
     const [row, name] = clicked(event.target);
-    if (row && !event.defaultPrevented && getSelection().isCollapsed) open(row, name);
+    const elsewhere = event.detail && down?.name !== name; // pressed on a unit, say, that was drawn anew since
+    if (row && !elsewhere && !event.defaultPrevented && getSelection().isCollapsed) open(row, name);
   });
 
   // A line that is drawn anew before the button comes up is clicked too; the browser tells of none, or of what holds it.
-  let down;
   document.addEventListener("mousedown", ({ target }) => (down = { target, name: clicked(target)[1] }), { capture: true });
   document.addEventListener("mouseup", ({ target }) => {
     const [row, name] = clicked(target);

@@ -140,7 +140,10 @@
     }
 
     disconnectedCallback() {
-      queueMicrotask(() => eachBar((bar) => bar.show()));
+      queueMicrotask(() => {
+        eachBar((bar) => bar.show());
+        document.dispatchEvent(new Event("ms-used"));
+      });
     }
 
     attributeChangedCallback() {
@@ -150,6 +153,7 @@
     tell() {
       fields = JSON.parse(this.getAttribute("told"));
       eachBar((bar) => bar.follow());
+      document.dispatchEvent(new Event("ms-used"));
     }
   }
 
