@@ -972,6 +972,20 @@ def test_a_unit_that_moves_away_under_the_pointer_opens_no_line(editor):
     page.locator(".ms-table table >> visible=true").first.evaluate("table => (table.style.marginTop = '')")
 
 
+def test_a_line_that_is_clicked_while_the_page_is_computed_anew_opens_then(editor):
+    page = editor.page
+    editor.expect_last_moment("420")
+    asked = """async (formula) => {
+        formula.click();
+        await new Promise((done) => setTimeout(done));
+        document.querySelector("ms-in-place").setAttribute("answer", "{}");
+        return document.querySelector(".ms-box textarea")?.value ?? "";
+    }"""
+    assert page.locator("#line-M_n > span").last.evaluate(asked) == "", "answered before the page was computed anew"
+    expect(page.locator(".ms-box textarea")).to_have_value(re.compile("^M_n = "))
+    page.locator(".ms-box textarea").press("Escape")
+
+
 def test_what_stands_in_the_box_is_of_the_inputs_there_are(editor):
     page, field = editor.page, editor.page.locator(".ms-inputs tr:has-text('force on the lever') input")
     shown = page.locator(".ms-box .ms-typed tbody tr").last.locator("td").last

@@ -30,8 +30,16 @@
 
   // One question after the other: of two that wait for it, marimo would hear the later one alone.
   function ask(what) {
-    last = last.then(() => answerTo(what));
+    last = last.then(() => answered(what));
     return last;
+  }
+
+  // What changes nothing is asked again where the page was being computed anew.
+  async function answered(what, tries = 20) {
+    const answer = await answerTo(what);
+    if (answer.why !== AGAIN || !tries || ["write", "undo"].includes(what.do)) return answer;
+    await later();
+    return answered(what, tries - 1);
   }
 
   // The field takes its text as from the hand, and passes it on when it is left.
