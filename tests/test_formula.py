@@ -125,7 +125,7 @@ IMPORT = "from mechsheet import typeset\n"
             "max(where(b < 0, pi, 0), c)",
             r"\max\left(\begin{cases} \pi & \text{if }b < 0 \\ 0 & \text{otherwise} \end{cases},\ c\right)",
         ),
-        ("dot(F, v + w)*k", r"F \cdot (v + w)\,k"),
+        ("dot(F, v + w)*k", r"(F \cdot (v + w))\,k"),
         ("trapezoid(M, phi1)", r"\int M\,\mathrm{d}\varphi_{1}"),
         ("cumulative_trapezoid(M - T, phi, initial=0)", r"\int^{\varphi}(M - T)\,\mathrm{d}\varphi"),
         ("np.ceil(h / b) * b", r"\left\lceil\frac{h}{b}\right\rceil\,b"),

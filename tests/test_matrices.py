@@ -103,6 +103,15 @@ def test_what_is_of_now_alone_is_named(lines: str, told: str, tmp_path: Path) ->
         ("(A if k > 1 else B) * A[0:2, 0:2]", "⊙ A_{"),
         ("np.sin(A) ** 2 + 2**A", r"(\sin\,A)^{\text{⊙}2} + 2^{\text{⊙}A}"),
         ("np.array([A**2 for A in v])", "A^{2}"),
+        ("v @ w / 2", r"\frac{v \cdot w}{2}"),
+        ("np.sqrt(v @ R[:, 0])", r"\sqrt{v \cdot R"),
+        ("w @ A @ v", r"w\,A \cdot v"),
+        ("v @ w * v", r"(v \cdot w)\,v"),
+        ("v * (v @ w)", r"v\,(v \cdot w)"),
+        ("k * (v @ w)", r"k\,(v \cdot w)"),
+        ("k - v @ w + 1", r"k - (v \cdot w) + 1"),
+        ("(v @ w) ** 2", r"(v \cdot w)^{2}"),
+        ("v * w", r"v\,w"),
     ],
 )
 def test_products_by_elements_are_told_from_those_of_matrices(line: str, formula: str) -> None:

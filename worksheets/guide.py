@@ -99,7 +99,8 @@ def section_2():
     A formula is one line of Python: name, expression, then its unit and meaning. `typeset()` at the end of the cell
     prints the lines above it as you would write them, with their values. Names become symbols: `phi_1` is $\varphi_1$,
     `A_gc` is $A_\mathrm{gc}$. An input is `g.` and its name. A power is `**`; `pi`, `sqrt`, `sin` come from the first
-    cell. Matrices are multiplied by `A @ B`; `A * B` multiplies element by element, shown as $A \odot B$.
+    cell. Matrices are multiplied by `A @ B`, and so are vectors, shown as $v \cdot w$; `A * B` multiplies element by
+    element, shown as $A \odot B$.
 
     A text between two lines is a string that stands by itself, in three quotes: it is shown where it stands.
 

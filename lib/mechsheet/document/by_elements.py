@@ -1,4 +1,4 @@
-"""Products and powers of square arrays element by element, as numpy's ``A * B``: formulas tell them from matrices'."""
+"""Products and powers of square arrays element by element, and those of vectors: formulas tell them from matrices'."""
 
 import ast
 from collections.abc import Mapping
@@ -20,6 +20,8 @@ _REDUCED = ("sum", "max", "min", "mean", "prod", "norm", "linalg.norm")  # numbe
 def marked(part: ast.expr, shapes: Mapping[str, Shape]) -> ast.expr:
     """An expression in which products, quotients and powers by elements are known where those of matrices exist too.
 
+    The product of two vectors becomes a call of ``dot``.
+
     ``shapes`` are those of the values that are read, by their names.
 
     >>> def of(text):
@@ -31,6 +33,9 @@ def marked(part: ast.expr, shapes: Mapping[str, Shape]) -> ast.expr:
     (['A @ v * v'], ['k / A'], [], ['sqrt(A) * v'], [])
     >>> of("det(A) * A * v[0]"), of("A * eye(2)"), of("A * v[:, None]"), of("A[0] * v"), of("[[k, 1], [2, k]] * A")
     ([], ['A * eye(2)'], ['A * v[:, None]'], [], ['[[k, 1], [2, k]] * A'])
+    >>> shapes = {"A": (2, 3), "u": (2,), "v": (3,)}
+    >>> [ast.unparse(marked(ast.parse(text, mode="eval").body, shapes)) for text in ("v @ v / 2", "u @ A @ v", "A @ v")]
+    ['dot(v, v) / 2', 'dot(u @ A, v)', 'A @ v']
     """
     return cast("ast.expr", _Marking(shapes).visit(deepcopy(part))) if shapes else part
 
@@ -70,6 +75,8 @@ class _Marking(ast.NodeTransformer):
             case ast.BinOp(op=ast.Mult() | ast.Div() | ast.Pow()) as product if self.is_by_elements(product):
                 product.by_elements = True  # type: ignore[attr-defined]
                 return product
+            case ast.BinOp(a, ast.MatMult(), b) if len(self.shape(a) or ()) == len(self.shape(b) or ()) == 1:
+                return ast.Call(ast.Name("dot", ast.Load()), [a, b], [])  # a number, written with a dot
         return node
 
     def is_by_elements(self, node: ast.BinOp) -> bool:

@@ -63,7 +63,7 @@ class Signed:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """Two parts round a sign: ``+ - × ⊙ ⊘ mod < ≤ > ≥ = ≠ ∈ ∉ ↦ , and or``."""
+    """Two parts round a sign: ``+ - × ⋅ ⊙ ⊘ mod < ≤ > ≥ = ≠ ∈ ∉ ↦ , and or``."""
 
     left: "Node"
     sign: str
@@ -241,7 +241,7 @@ _STRENGTHS = {
     Sum: PRODUCT, Signed: SUM, Range: RELATION, Row: RELATION,
     Cases: RELATION,
 }  # fmt: skip
-_SUMS = ("+", "-", "×", "⊙", "⊘", "mod")
+_SUMS = ("+", "-", "×", "⋅", "⊙", "⊘", "mod")
 
 
 def strength(node: Node) -> int:

@@ -219,7 +219,7 @@ def _cross(r: Reader, a: ast.expr, b: ast.expr) -> Node:
 
 
 def _dot(r: Reader, a: ast.expr, b: ast.expr) -> Node:
-    return Product(r.least(a, PRODUCT), r.least(b, PRODUCT), dot=True)
+    return Binary(r.least(a, PRODUCT), "⋅", r.least(b, PRODUCT))
 
 
 def _solve(r: Reader, a: ast.expr, b: ast.expr) -> Node:

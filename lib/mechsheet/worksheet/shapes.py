@@ -1,18 +1,25 @@
-"""Shapes of the values that a line reads: of square arrays a product by elements is not the one of matrices."""
+"""Shapes of the values that a line reads, which tell what a product is: of matrices, of vectors, by elements."""
 
+import ast
 from collections.abc import Iterator, Mapping
 from functools import reduce
 from typing import Any, TypeAlias
 
+from mechsheet.worksheet import source
 from mechsheet.worksheet.lines import Formula, Given, names_read
 
 Shape: TypeAlias = tuple[int, ...]
 
 
 def shapes(row: Formula | Given, namespace: Mapping[str, Any]) -> tuple[tuple[str, Shape], ...]:
-    """The names that a line reads, with the shapes of their values; none where no value is square."""
+    """The names that a line reads, with the shapes of their values; none where they tell nothing of its products."""
     known = tuple(_known(row, namespace))
-    return known if any(is_square(shape) for _, shape in known) else ()
+    return known if any(is_square(shape) for _, shape in known) or _multiplies(row) else ()
+
+
+def _multiplies(row: Formula | Given) -> bool:
+    parts = (*row, *dict(getattr(row, "where", ())).values())
+    return any(isinstance(x, ast.MatMult) for part in parts if isinstance(part, ast.expr) for x in source.nodes(part))
 
 
 def is_square(shape: Shape) -> bool:
