@@ -85,10 +85,20 @@ class _Counted(NamedTuple):
 
     def of_root(self, node: Node) -> str:
         """The unit of a natural frequency, the root of a stiffness over a mass; "" of anything else, a multiple too."""
-        if node.op != "sqrt" and not (node.op == "pow" and np.all(node.args[1].value == 0.5)):
-            return ""
         is_rate = only(self.reader.codes[node], self.reader.of_unit("rad/s"))
-        return "rad/s" if is_rate and self.is_of_quantities(node.args[0], _DEEPEST) else ""
+        return "rad/s" if is_rate and self.is_of_roots(node, _DEEPEST) else ""
+
+    def is_of_roots(self, node: Node, deep: int) -> bool:
+        """Whether a value is made of roots of quantities alone."""
+        match node.op:
+            case "sqrt":
+                return self.is_of_quantities(node.args[0], deep)
+            case "pow":
+                return bool(np.all(np.abs(node.args[1].value) == 0.5)) and self.is_of_quantities(node.args[0], deep)
+            case "mul" | "div" if deep:
+                factors = [x for x in node.operands if not (x.op == "constant" and self.is_of_quantities(x, deep))]
+                return bool(factors) and all(self.is_of_roots(x, deep - 1) for x in factors)
+        return False
 
     def is_of_quantities(self, node: Node, deep: int) -> bool:
         """Whether a value is made of no time, no rate and no number: 4 may be of a string, 8*pi**2 of turns."""
