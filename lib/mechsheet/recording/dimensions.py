@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.converted import converted
 from mechsheet.recording.dimension_rules import Reader
+from mechsheet.recording.handbook import by_turns
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
 from mechsheet.recording.temperatures import misread
@@ -53,7 +54,7 @@ def dimensions(
     lines = [line for line in known.values() if line.has_value]
     places = Places(sheet, known)
     reader = Reader(recording, values, namespace, lines, places)
-    for mistake in (*turned(reader), *converted(reader), *misread(reader)):
+    for mistake in (*turned(reader), *converted(reader), *by_turns(reader), *misread(reader)):
         reader.add(mistake)
     g = inputs_of(namespace)
     for field in declared(type(g)):
