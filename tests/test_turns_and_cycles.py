@@ -115,7 +115,6 @@ def test_what_may_be_meant_otherwise_is_refused(drive: Path, given: dict[str, An
 RIGHT = [
     "f_1 = g.n / (2 * pi)  # [Hz] turns in time",
     "f_1 = g.omega * 0.5 / pi  # [1/min] turns in time",
-    "n_2 = 9.55 * g.omega  # [1/min] turns in time, as in a handbook",
     "w = 2 * pi * g.f  # [rad/s] angular frequency",
     "turn = 2 * pi  # [rad] one\n    w = turn * g.f  # [rpm] speed",
     "w = g.phi * g.f  # [rad/s] of an angle a cycle",
@@ -151,6 +150,7 @@ WRONG = {
     "f_1 = 1 * g.n  # [Hz] turns in time": "[Hz] does not fit; the value is an angle in time, as in [rpm], until",
     "f_1 = g.n  # [1/min] turns in time": "[1/min] does not fit; the value is an angle in time, as in [rpm], until",
     "f_1 = maximum(g.z * g.omega / 2, 0.0)  # [Hz] turns": "[Hz] does not fit; the value is an angle in time, as in [r",
+    "n_2 = 9.55 * g.omega  # [1/min] turns in time, shown 60 times": "in SI already, as an angle in time: write it",
     "w = g.f / g.z  # [rad/s] speed": "[rad/s] does not fit; the value is cycles in time, as in [Hz], until it is mult",
     "w = 3 * rpm * 2  # [Hz] speed": "[Hz] does not fit",
     "w = 2 * n_1 * linspace(0, 1, 3)  # [kHz] speed": "[kHz] does not fit",

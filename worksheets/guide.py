@@ -41,7 +41,7 @@ def section_1():
 
     Each input is a line of a class: name, value, and after `#` its unit, its meaning and, after `;`, its limits. The
     page makes a field of it. Values are in SI units and radians, `30 * deg` or `0.06`; the field shows the unit that
-    stands in the line. A speed in rpm is in rad/s too: a rim has $v = n D / 2$, not $\pi D n / 60$.
+    stands in the line. A speed in rpm is in rad/s too: a rim has `n * D / 2`, not `pi * D * n / 60`.
 
     **Try** `40` in the field of the crank, then `-40`, then `0,05 m`: a number that breaks its limit is told in words,
     a decimal comma is a decimal point, and a unit of your own is converted.
