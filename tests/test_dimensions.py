@@ -385,6 +385,27 @@ def test_a_literal_says_once_what_it_is_taken_for(told: Callable[..., Dimensions
     assert [str(note) for note in found.notes] == [f"line {FIRST}, 0.3: taken in m"]
 
 
+@pytest.mark.parametrize(
+    ("line", "note"),
+    [
+        ("x = g.F * g.L / 1000  # [kN*m] moment", "divided by 1000, as [kN·m] does once more"),
+        ("x = g.F / g.L**2 * 1e-6  # [MPa] pressure", "multiplied by 1e-6, as [MPa] does once more"),
+        ("x = 1000 * g.L  # [mm] length", "multiplied by 1000, as [mm] does once more"),
+        ("x = 100 * g.L / g.D  # [%] part", "multiplied by 100, as [%] does once more"),
+        ("x = g.L / 1000  # [mm] sag", ""),
+        ("x = 1000 * g.F  # [N] force", ""),
+        ("x = 1000 / 25  # [mm] pitch", ""),
+        ("x = g.F / 2  # [kN] half", ""),
+        ("x = g.F / 1000  # [kN] as printed (erratum)", ""),
+    ],
+)
+def test_a_number_that_converts_as_the_unit_is_noted(told: Callable[..., Dimensions], line: str, note: str) -> None:
+    """The unit converts what is shown: 5 kN stood as 0.005 kN; it is no mistake for sure."""
+    found = told(line)
+    assert [str(note) for note in found.notes] == [f"line {FIRST}, x: {note}"] * bool(note)
+    assert not found.mistakes
+
+
 def test_a_check_whose_unit_was_forgotten_says_what_it_is_shown_in(told: Callable[..., Dimensions]) -> None:
     """A stress stood there as a number of eight digits."""
     found = told("c = check('c', g.F, 2 * g.F)", "d = check('d', g.F / g.F, 3.0)", "e = check('e', g.F, 9.0, 'N')")

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from mechsheet.quantities.lines import Recording
 from mechsheet.recording.converted import converted
 from mechsheet.recording.dimension_rules import Reader
-from mechsheet.recording.handbook import by_turns
+from mechsheet.recording.handbook import by_turns, to_the_unit
 from mechsheet.recording.pinpoint import Mistake, Places
 from mechsheet.recording.record import record
 from mechsheet.recording.temperatures import misread
@@ -56,6 +56,8 @@ def dimensions(
     reader = Reader(recording, values, namespace, lines, places)
     for mistake in (*turned(reader), *converted(reader), *by_turns(reader), *misread(reader)):
         reader.add(mistake)
+    for note in to_the_unit(reader):
+        reader.notes.setdefault(note.line, note)
     g = inputs_of(namespace)
     for field in declared(type(g)):
         for leaf, _ in field.leaves(getattr(g, field.name)).values():

@@ -1,4 +1,7 @@
-"""Handbook formulas that take a speed in turns, v = pi*D*n/60: here it is in rad/s already, whatever it is typed in."""
+"""Handbook formulas with numbers that convert units: of speeds in turns, v = pi*D*n/60, and to kW, P = M*n/1000.
+
+Here all is in SI, a speed in rad/s, whatever it is typed in, and the unit of a line converts what is shown.
+"""
 
 from collections.abc import Iterator
 from math import isclose, pi, prod
@@ -49,6 +52,21 @@ def by_turns(reader: Reader) -> Iterator[Mistake]:
         terms = [term for node in (*check.parts, check.limit) for term in _terms(node, _DEEPEST)]
         if why := next(filter(None, (_why(reader, term, None) for term in terms)), ""):
             yield Mistake(reader.places.of_check(name, [term.line for term in terms]), f"check {name!r}", why)
+
+
+def to_the_unit(reader: Reader) -> Iterator[Mistake]:
+    """The lines that multiply by the number by which their unit does too: it may be meant."""
+    for node, lines in reader.declared.items():
+        for line in lines:
+            factor = units.parse(line.unit).factor if line.unit != units.UNKNOWN else 1.0
+            if line.mistake or factor == 1 or units.kind(line.unit) == units.ANGLE or "erratum" in line.meaning:
+                continue
+            factors = _factors(reader, node, line, False, _DEEPEST) or []
+            for x in factors if any(x.unit for x in factors) else ():
+                if not x.unit and isclose(x.number * factor, 1 if not x.below else factor**2, rel_tol=1e-9):
+                    done = f"{'divided' if x.below else 'multiplied'} by {_short(x.number)}"
+                    unit = numbers.in_text(line.unit)
+                    yield Mistake(reader.places.line_of(line), line.name, f"{done}, as [{unit}] does once more")
 
 
 def _is_speed(unit: str) -> bool:
