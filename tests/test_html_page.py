@@ -402,6 +402,21 @@ def test_a_slider_moves_its_drawings_which_follow_the_inputs(document: Callable[
     assert drawing.inner_html() == moved
 
 
+@pytest.mark.parametrize("name", ["hitch", "slotted_link"])
+def test_the_moving_position_stands_in_each_chart_over_it(
+    name: str, document: Callable[..., Path], offline: Page
+) -> None:
+    """A name with an underscore was asked for without it: the line stood thirty million pixels to the left."""
+    page = opened(offline, document(name))
+    page.evaluate(SETTLED)
+    inside = """line => {
+        const [at, chart] = [line, line.closest(".ms-chart")].map(e => e.getBoundingClientRect());
+        return at.x > chart.x && at.x < chart.right;
+    }"""
+    lines = page.locator(".ms-at").all()
+    assert lines and all(line.evaluate(inside) for line in lines)
+
+
 def test_a_symbol_tells_what_it_means(document: Callable[..., Path], offline: Page) -> None:
     page = opened(offline, document("hitch"))
     symbol = page.locator("#line-S_c msub").last

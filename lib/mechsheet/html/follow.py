@@ -31,7 +31,7 @@ from mechsheet.worksheet.drawing import Drawing
 from mechsheet.worksheet.find import Found
 from mechsheet.worksheet.over import Axis
 from mechsheet.worksheet.said import said
-from mechsheet.worksheet.symbol import read, stem
+from mechsheet.worksheet.symbol import plain, read, stem
 from mechsheet.worksheet.system import Solution
 from mechsheet.worksheet.table import Column, Figure, Table, usual_decimals
 from mechsheet.worksheet.terms import is_rounding, may_be_rounding, terms
@@ -198,7 +198,7 @@ class Follower:
 
     def positions(self) -> dict[str, str]:
         """Keys of the positions that are marked along charts, by their quantities."""
-        found = {name: self.key(node) for name, node in self.recording.positions.items()}
+        found = {plain(name): self.key(node) for name, node in self.recording.positions.items()}
         self._asked = []
         return found
 

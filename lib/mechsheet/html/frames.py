@@ -16,6 +16,7 @@ from mechsheet.html.follow import Follower
 from mechsheet.html.values import still, value
 from mechsheet.recording import showing
 from mechsheet.worksheet.cells import Worksheet
+from mechsheet.worksheet.symbol import plain
 from mechsheet.worksheet.title import Mark, Slider
 
 _MOST, _MOST_PICTURES = 400, 51  # positions of a slider; where drawings are kept for each
@@ -108,7 +109,7 @@ def told(found: Moved, page: Follower) -> dict[str, Any]:
         "positions": list(found.positions),
         "pictures": [json.loads(each) for each in known],
         "which": [known.index(each) for each in pictures],
-        "marks": found.marks,
+        "marks": {plain(name): places for name, places in found.marks.items()},
         "stop": page.argument(f"slider {found.control.name} stop"),
         "stepped": bool(found.control.step),
     }
