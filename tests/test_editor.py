@@ -1004,6 +1004,17 @@ def test_what_stands_in_the_box_is_of_the_inputs_there_are(editor):
     page.locator(".ms-box textarea").press("Escape")
 
 
+def test_a_mistake_that_is_mended_does_not_stay_beside_the_next_one(editor):
+    page, box = editor.page, editor.page.locator(".ms-box")
+    click_until(page, box.locator("textarea"))
+    box.locator("textarea").fill("M_n = g.F / 0  # [N] force")
+    box.get_by_text("division by zero").wait_for()
+    box.locator("textarea").fill("M_n = g.F^2  # [N**2] square")
+    box.get_by_text("a power is written **").wait_for()
+    expect(box).not_to_contain_text("division by zero")
+    box.locator("textarea").press("Escape")
+
+
 def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):
     """By the keys alone, as in the page that is served; it stays while the inputs change."""
     page = editor.page

@@ -55,6 +55,7 @@ def test_a_step_back_and_on_the_documents_own_and_a_link(
     expect(states).to_contain_text("r = 55 mm")
     fill(page, "r", "-1")
     expect(states).to_contain_text("not computed with what the fields say")
+    expect(states).not_to_contain_text("in the document)")  # 55 mm, which no field shows
     for name in ("save as a scene", "copy a link"):  # either would carry other inputs than those that are seen
         expect(states.get_by_role("button", name=name)).to_be_disabled()
     states.get_by_role("button", name="undo").dblclick()  # the second one before the page has computed the first

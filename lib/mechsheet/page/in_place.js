@@ -193,7 +193,10 @@
     if (!of || of.busy) return;
     explain(answer.why ?? (isUnsaved() ? UNSAVED : of.told));
     typed.classList.toggle("ms-former", answer.shown === undefined);
-    if (answer.shown === undefined) return;
+    if (answer.shown === undefined) {
+      if (typed.querySelector(".ms-badge")?.textContent === "mistake") typed.replaceChildren(); // of a text of before
+      return;
+    }
     typed.innerHTML = answer.shown;
     typed.querySelectorAll("[id]").forEach((each) => each.removeAttribute("id")); // the page's own lines have them
     toSight();

@@ -257,7 +257,7 @@
       list.hidden = !list.firstChild;
       const as = this.refused ? "not computed with what the fields say" : differs.size ? "" : "as in the document";
       this.querySelector("[role=status]").textContent = [as, ...(this.strange?.values() ?? [])].filter(Boolean).join("; ");
-      const changed = this.given.map(
+      const changed = (this.refused ? [] : this.given).map(
         ({ head, text, own, unit }) => `<span>${head} = <b>${inLine(text)}</b> ${plain(unit)} <i>(${inLine(own)} in the document)</i></span>`,
       );
       this.lastElementChild.innerHTML = changed.join("");
