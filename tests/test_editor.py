@@ -1015,6 +1015,18 @@ def test_a_mistake_that_is_mended_does_not_stay_beside_the_next_one(editor):
     box.locator("textarea").press("Escape")
 
 
+def test_a_line_that_loses_its_unit_is_asked_about(editor):
+    """It went from the page, and the tables with it, which only Ctrl+Z or the code brought back."""
+    page, file = editor.page, Path(editor.page.locator("marimo-filename").text_content())
+    before, box = file.read_bytes(), page.locator(".ms-box")
+    click_until(page, box.locator("textarea"))
+    box.locator("textarea").fill("M_n = 2 * g.parts * g.F * g.L / n")
+    box.locator("textarea").press("Enter")
+    box.get_by_text("without its [unit] it is not shown, and no table takes it: Enter once more writes it").wait_for()
+    assert file.read_bytes() == before
+    box.locator("textarea").press("Escape")
+
+
 def test_a_unit_is_switched_wherever_the_quantity_is_shown(editor):
     """By the keys alone, as in the page that is served; it stays while the inputs change."""
     page = editor.page

@@ -119,6 +119,8 @@ class InPlace:
         made = told.of(text)
         if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
             return {"asks": need, "renames": _renames(was, new)}
+        if do == "write" and not sure and new and not below and _is_shown(was) and not _is_shown(new):
+            return {"asks": "without its [unit] it is not shown, and no table takes it"}
         if do == "write" and not sure and self.breaks(text, told, name, was, new, below):
             return {"asks": "it has no value, and without one nor has what stands below it in its cell"}
         if do == "write" and name.startswith(OF_INPUT):
@@ -172,6 +174,11 @@ class InPlace:
         else:
             shown = _elsewhere(lambda: _computed(cells, name, was, new, below, names))
         return shown + "".join(f"<div>{values.NOTE} the setup gets {escape(line)}</div>" for line in lines)
+
+
+def _is_shown(text: str) -> bool:
+    """Whether a line is typeset as a formula."""
+    return any(isinstance(row, Formula) for row in formulas(source.of_texts(((text, _FILE),))[0]))
 
 
 class _TooLong(BaseException):
