@@ -16,6 +16,7 @@ from test_recalculation import cell_of, disagreements, edit
 from written_cells import Values
 
 from mechsheet import evaluate, grid, load, sweep
+from mechsheet.html import write
 from mechsheet.page.values import html
 from mechsheet.recording.dimensions import mismatches
 from mechsheet.recording.record import record
@@ -436,3 +437,12 @@ def test_a_row_outside_its_limits_is_told_by_its_value_and_limit(tmp_path: Path)
     path.write_text(SHEET.replace("Stringer(1 * cm**2", "Stringer(-1 * cm**2"), encoding="utf-8")
     with pytest.raises(SheetError, match=r"area A = -1\.0 cm² must be positive"):
         load(path)
+
+
+def test_on_paper_a_tolerance_stands_behind_the_meaning() -> None:
+    """Limits of inputs are of the fields alone; with its tolerances a result is of them."""
+    sheet = load(Path(__file__).parents[1] / "worksheets" / "examples" / "bucket.py")
+    whole = write.page(sheet, sheet.inputs())
+    for paper in (html(inputs.Used(sheet.inputs())), whole):
+        _, _, rows = paper.partition('<table class="ms-print"')
+        assert "hinge of the cylinder, along the arm ±&nbsp;0.002&nbsp;m</td>" in rows

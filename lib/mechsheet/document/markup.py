@@ -166,7 +166,12 @@ def limits(field: Input) -> str:
     '±&nbsp;0.5°'
     """
     parts = [f"{_SIGNS[sign]}&nbsp;{_limit(other)}" for sign, other in field.limits]
-    return ", ".join(parts + [t.text(field.unit, HTML).replace(" ", "&nbsp;") for t in [field.tolerance] if t])
+    return ", ".join(filter(None, (*parts, tolerance(field))))
+
+
+def tolerance(field: Input) -> str:
+    """Tolerance of an input; "" where none is known."""
+    return field.tolerance.text(field.unit, HTML).replace(" ", "&nbsp;") if field.tolerance else ""
 
 
 def _limit(text: str) -> str:

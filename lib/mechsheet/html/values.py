@@ -14,7 +14,7 @@ from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import beside, blocks, fitting
 from mechsheet.document.expression import equation
-from mechsheet.document.markup import as_written, compared, meant, message, named, once, printed, where
+from mechsheet.document.markup import as_written, compared, meant, message, named, once, printed, tolerance, where
 from mechsheet.document.mathml import mathml
 from mechsheet.document.names import fields_by_name
 from mechsheet.document.parts import Control, Line, Section, Text
@@ -307,7 +307,7 @@ def _(used: Used, page: Follower) -> str:
         number = "" if isinstance(field, Rows) else escape(field.brief(getattr(used.g, field.name)))
         rows.append(
             f'<tr data-used="{field.name}"><td>{as_written(field.name)}</td><td>{number}</td>'
-            f"<td>{unit}</td><td>{meant(field.meaning, known)}</td></tr>"
+            f"<td>{unit}</td><td>{meant(field.meaning, known)} {tolerance(field)}</td></tr>"
         )
         rows += ['<tr><td colspan="4"></td></tr>'] if isinstance(field, Rows) else []  # for the page's own table
     return f'<table class="ms-print">{"".join(rows)}</table>'

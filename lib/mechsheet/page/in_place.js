@@ -191,6 +191,7 @@
     asking = false;
     if (of && (of !== mine || area.value !== text)) return typing();
     if (!of || of.busy) return;
+    offer(answer.renames);
     explain(answer.why ?? (isUnsaved() ? UNSAVED : of.told));
     typed.classList.toggle("ms-former", answer.shown === undefined);
     if (answer.shown === undefined) {
@@ -297,7 +298,7 @@
       inTurn(() => write(what, name, mine, then));
     },
     everywhere() {
-      if (!keys.querySelector('[data-do="everywhere"]').hidden) acts.write(undefined, { everywhere: true });
+      acts.write(undefined, { everywhere: !keys.querySelector('[data-do="everywhere"]').hidden });
     },
     // What is typed is written first; the new line opens beneath it, where it stands then.
     below() {

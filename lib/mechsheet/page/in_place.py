@@ -106,7 +106,10 @@ class InPlace:
             case "open":
                 return {"line": line(text, name), "why": "" if self.is_taken(text) else _UNSAVED}
             case "type":
-                return {"shown": self.preview(text, change(text, name, was, new, below), name, was, new, below)}
+                made = change(text, name, was, new, below)
+                needed = not below and _needing(made.of(text), name, was, new)
+                renames = _renames(was, new) if needed else []
+                return {"shown": self.preview(text, made, name, was, new, below), "renames": renames}
             case "taken":
                 return {"taken": self.is_taken(text)}
             case "cell":
@@ -116,8 +119,7 @@ class InPlace:
         if everywhere:
             return self.rename(text, name, was, new)
         told = Change(**parts) if do == "undo" else change(text, name, was, new, below)
-        made = told.of(text)
-        if do == "write" and not sure and (need := _needing(made, name, was, was if below else new)):
+        if do == "write" and not sure and (need := _needing(told.of(text), name, was, was if below else new)):
             return {"asks": need, "renames": _renames(was, new)}
         if do == "write" and not sure and new and not below and _is_shown(was) and not _is_shown(new):
             return {"asks": "without its [unit] it is not shown, and no table takes it"}

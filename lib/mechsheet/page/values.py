@@ -15,7 +15,7 @@ import numpy as np
 from mechsheet import units
 from mechsheet.document import chart, chart_svg, drawing_svg
 from mechsheet.document.blocks import beside, blocks, fitting
-from mechsheet.document.markup import as_written, compared, in_words, meant, message, named
+from mechsheet.document.markup import as_written, compared, in_words, meant, message, named, tolerance
 from mechsheet.document.shortened import foot, shortened, thinned
 from mechsheet.html import index
 from mechsheet.page import fields, notebook, switched
@@ -347,7 +347,8 @@ def _(used: Used) -> str:
         rows.append(
             f'<tr style="font-weight:{weight}"><td>{name}</td>'
             f'<td style="text-align:right;padding:0 .5em">{_printed(field, value)}</td>'
-            f'<td style="padding-right:1em">{escape(unit)}</td><td>{meant(field.meaning, known)}</td></tr>'
+            f'<td style="padding-right:1em">{escape(unit)}</td>'
+            f"<td>{meant(field.meaning, known)} {tolerance(field)}</td></tr>"
         )
         own = field.text(getattr(type(used.g), field.name))
         text = field.text(value) if field.name in changed else own
